@@ -1,0 +1,136 @@
+//! Writing a session: a directory with `session.json` and `events.jsonl`.
+//!
+//! Each event is one line, written whole and synchronised to the disk before `append` returns, so
+//! that no answer is lost once the next picture is shown. Nothing is overwritten: `create` refuses a
+//! directory that holds a session. One program writes a session at a time (a lock on the file).
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use crate::error::Error;
+use crate::event::Event;
+use crate::header::SessionHeader;
+use crate::read::{Session, read_session};
+
+/// Name of the header's file.
+pub const HEADER_FILE: &str = "session.json";
+/// Name of the events' file.
+pub const EVENTS_FILE: &str = "events.jsonl";
+
+/// A session that is being written.
+#[derive(Debug)]
+pub struct SessionWriter {
+    path: PathBuf,
+    file: File,
+    /// Bytes of whole lines on disk.
+    length_bytes: u64,
+}
+
+impl SessionWriter {
+    /// Makes `directory` where it does not exist and writes the header.
+    ///
+    /// Errors: a directory that holds a session, a header that is out of range, the system's.
+    pub fn create(directory: &Path, header: &SessionHeader) -> Result<Self, Error> {
+        header.check()?;
+        std::fs::create_dir_all(directory).map_err(Error::io(directory))?;
+        let header_path = directory.join(HEADER_FILE);
+        let path = directory.join(EVENTS_FILE);
+        if header_path.exists() || path.exists() {
+            return Err(Error::SessionExists(directory.into()));
+        }
+
+        let mut header_file = create_new(directory, &header_path)?;
+        let mut json = serde_json::to_vec_pretty(header)
+            .map_err(|error| Error::io(&header_path)(error.into()))?;
+        json.push(b'\n');
+        header_file
+            .write_all(&json)
+            .and_then(|()| header_file.sync_all())
+            .map_err(Error::io(&header_path))?;
+
+        let file = create_new(directory, &path)?;
+        file.sync_all().map_err(Error::io(&path))?;
+        sync_directory(directory)?;
+        Self::lock(directory, path, file, 0)
+    }
+
+    /// Opens an interrupted session to go on with it, and gives what it holds.
+    ///
+    /// The session is replayed first, so that only a record that the seed leads to is continued. A
+    /// last line that was cut off is removed from the file, so that nothing is ever glued to it;
+    /// the notice quotes it.
+    pub fn reopen(directory: &Path) -> Result<(Self, Session), Error> {
+        let path = directory.join(EVENTS_FILE);
+        let file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .open(&path)
+            .map_err(Error::io(&path))?;
+        let mut writer = Self::lock(directory, path, file, 0)?;
+        let session = read_session(directory)?;
+        session.replay()?;
+        writer.length_bytes = session.whole_lines_bytes();
+        writer.drop_tail().map_err(Error::io(&writer.path))?;
+        Ok((writer, session))
+    }
+
+    /// Writes one event and waits until the disk has it. After an error the file ends with the
+    /// last whole event, as far as the system allows.
+    pub fn append(&mut self, event: &Event) -> Result<(), Error> {
+        let mut line =
+            serde_json::to_vec(event).map_err(|error| Error::io(&self.path)(error.into()))?;
+        line.push(b'\n');
+        let written = self
+            .file
+            .write_all(&line)
+            .and_then(|()| self.file.sync_data());
+        if let Err(error) = written {
+            // The write's own error is the one to report; a tail that stays is dropped by a reader.
+            let _ = self.drop_tail();
+            return Err(Error::io(&self.path)(error));
+        }
+        self.length_bytes += line.len() as u64;
+        Ok(())
+    }
+
+    fn lock(directory: &Path, path: PathBuf, file: File, length_bytes: u64) -> Result<Self, Error> {
+        match file.try_lock() {
+            Ok(()) => Ok(Self {
+                path,
+                file,
+                length_bytes,
+            }),
+            Err(TryLockError::WouldBlock) => Err(Error::SessionInUse(directory.into())),
+            Err(TryLockError::Error(error)) => Err(Error::io(path)(error)),
+        }
+    }
+
+    /// Cuts the file behind its whole lines and goes there.
+    fn drop_tail(&mut self) -> std::io::Result<()> {
+        self.file.set_len(self.length_bytes)?;
+        self.file.seek(SeekFrom::Start(self.length_bytes))?;
+        self.file.sync_data()
+    }
+}
+
+fn create_new(directory: &Path, path: &Path) -> Result<File, Error> {
+    OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .open(path)
+        .map_err(|error| match error.kind() {
+            std::io::ErrorKind::AlreadyExists => Error::SessionExists(directory.into()),
+            _ => Error::io(path)(error),
+        })
+}
+
+/// Makes the names of new files durable, where directories can be synchronised.
+fn sync_directory(directory: &Path) -> Result<(), Error> {
+    if cfg!(unix) {
+        File::open(directory)
+            .and_then(|directory| directory.sync_all())
+            .map_err(Error::io(directory))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,127 @@
+//! One QUEST of a session: its condition, its responses and its state.
+
+use serde::{Deserialize, Serialize};
+
+use crate::convergence::Verdict;
+use crate::error::Error;
+use crate::protocol::Protocol;
+use crate::quest::Quest;
+use crate::trial::{Condition, Trial};
+
+/// One QUEST among the session's.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    condition: Condition,
+    quest: Quest,
+    responses: Vec<(f64, bool)>,
+    verdict: Verdict,
+    done: bool,
+}
+
+/// The state of a QUEST in terms of the ratio, the radius in texels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// 10 to the posterior's mean log10 ratio.
+    pub ratio: f64,
+    /// 5 % and 95 % quantiles of the posterior.
+    pub ratio_interval90: (f64, f64),
+    /// Standard deviation of the posterior in log10 of the ratio.
+    pub sd_log10: f64,
+}
+
+impl Track {
+    /// A QUEST at its prior.
+    pub(crate) fn new(protocol: &Protocol, condition: Condition) -> Result<Self, Error> {
+        let quest = Quest::new(protocol.quest_config())?;
+        let verdict =
+            protocol
+                .convergence
+                .judge(&quest, &[], intensity_range(protocol, &condition))?;
+        Ok(Self {
+            condition,
+            quest,
+            responses: Vec::new(),
+            verdict,
+            done: false,
+        })
+    }
+
+    /// Radius that QUEST asks for, and that radius clamped to what the picture can show.
+    pub(crate) fn next_radius_px(&self, protocol: &Protocol) -> (f64, f64) {
+        let texel_px = self.condition.texel_px;
+        let placement_px = texel_px * 10f64.powf(-self.quest.placement());
+        let (smallest_px, largest_px) = protocol.radius_range_px(texel_px);
+        (placement_px, placement_px.clamp(smallest_px, largest_px))
+    }
+
+    /// Takes a response to `trial`, at the radius that was shown.
+    pub(crate) fn respond(
+        &mut self,
+        protocol: &Protocol,
+        trial: &Trial,
+        correct: bool,
+    ) -> Result<(), Error> {
+        self.quest.update(trial.intensity(), correct)?;
+        self.responses.push((trial.intensity(), correct));
+        let range = intensity_range(protocol, &self.condition);
+        self.verdict = protocol
+            .convergence
+            .judge(&self.quest, &self.responses, range)?;
+        let trials = self.trials();
+        self.done = trials >= protocol.trials_max
+            || (trials >= protocol.trials_min && self.verdict.is_converged());
+        Ok(())
+    }
+
+    /// What it measures.
+    pub fn condition(&self) -> &Condition {
+        &self.condition
+    }
+
+    /// Its posterior.
+    pub fn quest(&self) -> &Quest {
+        &self.quest
+    }
+
+    /// Its responses in order: intensity as shown, and whether the answer was right.
+    pub fn responses(&self) -> &[(f64, bool)] {
+        &self.responses
+    }
+
+    /// Number of its responses.
+    pub fn trials(&self) -> u32 {
+        self.responses.len() as u32
+    }
+
+    /// What the convergence rule says of it.
+    pub fn verdict(&self) -> Verdict {
+        self.verdict
+    }
+
+    /// Whether it asks for no further trial: converged, or at the most trials.
+    pub fn is_done(&self) -> bool {
+        self.done
+    }
+
+    /// Its threshold as a ratio.
+    pub fn estimate(&self) -> Estimate {
+        let ratio = |intensity: f64| 10f64.powf(-intensity);
+        Estimate {
+            ratio: ratio(self.quest.mean()),
+            ratio_interval90: (
+                ratio(self.quest.quantile(0.95)),
+                ratio(self.quest.quantile(0.05)),
+            ),
+            sd_log10: self.quest.sd(),
+        }
+    }
+}
+
+/// Intensities of the largest and the smallest radius that can be shown.
+fn intensity_range(protocol: &Protocol, condition: &Condition) -> (f64, f64) {
+    let (smallest_px, largest_px) = protocol.radius_range_px(condition.texel_px);
+    (
+        (condition.texel_px / largest_px).log10(),
+        (condition.texel_px / smallest_px).log10(),
+    )
+}
