@@ -1,10 +1,50 @@
 //! Exact pictures of filtered shadow-map artifacts.
+//!
+//! A shadow map stores a shadow's edge in texels of size `a`; a filter of radius `r` blurs the steps.
+//! At some ratio `c = r / a` nobody can tell the result from the filtered true edge. This crate draws
+//! both sides of that comparison for people to judge (Kreuzer 2017, chapter 4), without sampling:
+//!
+//! 1. [`Kernel`]: the weight of a disc, box or Gaussian in a quadrant and in a half plane, closed
+//!    forms.
+//! 2. [`Silhouette`]: the coverage of a filtered stair, step and line as a few of those, exact to
+//!    1e-12 (disc, box) and 1e-9 (Gaussian) against an independent table.
+//! 3. [`Stimulus`]: one picture of the experiment as a handful of numbers, and
+//!    [`Stimulus::render`], which turns it into 8-bit sRGB at physical pixels.
+//!
+//! Not here: which picture to show (`scumble-psychophysics`), and how (`scumble-study`).
+//!
+//! ```
+//! use scumble_stimuli::{Pattern, Shape, Stimulus};
+//!
+//! let stimulus = Stimulus {
+//!     pattern: Pattern::Stair,
+//!     shape: Shape::Artifact,
+//!     texel_px: 10.0,
+//!     radius_px: 20.0,
+//!     contrast: 1.0,
+//!     phase: 0.0,
+//!     mirrored: false,
+//!     inverted: false,
+//!     dither_seed: None,
+//! };
+//! let picture = stimulus.render(100, 100)?;
+//! assert_eq!(picture.get_pixel(0, 0).0, [255], "lit above the edge");
+//! assert_eq!(picture.get_pixel(99, 99).0, [0], "in shadow below it");
+//! # Ok::<(), scumble_stimuli::Error>(())
+//! ```
 
 mod error;
+mod kernel;
+mod level;
+mod render;
+mod silhouette;
 mod stimulus;
 
 pub use error::Error;
+pub use kernel::Kernel;
+pub use level::{linear_from_srgb, srgb_from_linear};
+pub use silhouette::Silhouette;
 pub use stimulus::{Pattern, Shape, Stimulus};
 
-/// Longest side of a picture that is rendered: the largest texture of common devices.
+/// Longest side of a picture, in pixels: the largest texture of common devices.
 pub const MAX_SIDE_PX: u32 = 16_384;

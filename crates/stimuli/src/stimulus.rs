@@ -29,7 +29,8 @@ pub enum Shape {
     Line,
 }
 
-/// One picture of the experiment. Equal values give equal bytes on every platform.
+/// One picture of the experiment. Equal values give equal bytes in one build of the program (the arc
+/// sine and the power come from the platform).
 ///
 /// Lengths are physical pixels of the display, light is linear.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
