@@ -1,0 +1,4 @@
+//! Ground truth.
+
+mod rays;
+pub use rays::{Hit, Rays};

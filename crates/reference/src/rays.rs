@@ -1,0 +1,233 @@
+//! Rays against a scene's triangles: the nearest hit, and whether a segment is free.
+//!
+//! The hierarchy is obvhs's compressed 8-wide tree in `f32`; the triangles are met in `f64`. A ray can slip through a closed
+//! surface in two places, and both are shut:
+//! * between box and ray: every box is padded by `PADDING` of the scene's extent, more than `f32` loses on the way;
+//! * between two triangles: barycentric coordinates may be `EDGE_TOLERANCE` below zero, so that neighbours overlap.
+//!
+//! Coordinates are relative to the middle of the scene, so that a scene at 1e6 m has the accuracy of one at the origin
+//! (as far as its own `f32` positions go). Meshes may be open, doubled, or wound either way: both sides of a triangle count.
+//!
+//! Triangles by Moeller and Trumbore, *Fast, minimum storage ray/triangle intersection* (1997).
+
+use glam::{DVec3, Vec3A};
+use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
+use obvhs::ray::{Ray, RayHit};
+use obvhs::{BvhBuildParams, aabb::Aabb};
+use scumble_scenes::Scene;
+use std::time::Duration;
+
+/// Growth of the boxes by this share of the scene's extent. A `f32` origin and slab test are off by a few 6e-8.
+const PADDING: f64 = 1e-6;
+/// Barycentric coordinates down to this count as inside: far above `f64` rounding, far below a `f32` position's.
+const EDGE_TOLERANCE: f64 = 1e-10;
+/// See [`Rays::epsilon`].
+const EPSILON: f64 = 1e-5;
+
+/// A scene prepared for rays.
+pub struct Rays {
+    hierarchy: CwBvh,
+    /// In the hierarchy's order.
+    triangles: Vec<Triangle>,
+    middle: DVec3,
+    extent: f64,
+}
+
+/// Relative to the middle of the scene.
+struct Triangle {
+    corner: DVec3,
+    edges: [DVec3; 2],
+    shading_normals: [DVec3; 3],
+    mesh: u32,
+}
+
+/// The nearest point of the scene on a ray.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// Along the ray, in lengths of its direction.
+    pub distance: f64,
+    /// In world space.
+    pub position: DVec3,
+    /// Unit normal of the triangle, towards the ray's origin.
+    pub geometric_normal: DVec3,
+    /// Unit normal interpolated between the corners, on the same side as the geometric normal.
+    pub shading_normal: DVec3,
+    /// Index into the scene's meshes.
+    pub mesh: usize,
+}
+
+impl Rays {
+    /// Builds the hierarchy: about a quarter of a second for 100,000 triangles.
+    pub fn new(scene: &Scene) -> Self {
+        let bounds = scene.bounds();
+        let middle = (bounds.min + bounds.max) / 2.0;
+        let extent = (bounds.max - bounds.min).length();
+        let triangles = triangles_of(scene, middle);
+        let boxes: Vec<Aabb> = triangles
+            .iter()
+            .map(|triangle| triangle.padded_box(PADDING * extent))
+            .collect();
+
+        // An empty scene has an empty tree, which the builder does not make.
+        let hierarchy = if boxes.is_empty() {
+            CwBvh::default()
+        } else {
+            build_cwbvh(
+                &boxes,
+                BvhBuildParams::medium_build(),
+                &mut Duration::default(),
+            )
+        };
+
+        // Leaves that lie together in memory are met together.
+        let mut unordered: Vec<Option<Triangle>> = triangles.into_iter().map(Some).collect();
+        let triangles = hierarchy
+            .primitive_indices
+            .iter()
+            .filter_map(|&index| unordered[index as usize].take())
+            .collect();
+        Self {
+            hierarchy,
+            triangles,
+            middle,
+            extent,
+        }
+    }
+
+    /// The length below which two surfaces are one, in metres: 1e-5 of the scene's diagonal.
+    ///
+    /// Shadow rays end this far before the receiver. It covers the `f32` rounding of receivers that come from a GPU
+    /// (1e-7 of their coordinates, times the slope of a tap on a receiver seen at a grazing angle).
+    pub fn epsilon(&self) -> f64 {
+        EPSILON * self.extent
+    }
+
+    /// The nearest hit with `0 < distance < length`, both in lengths of `direction`.
+    pub fn first_hit(&self, origin: DVec3, direction: DVec3, length: f64) -> Option<Hit> {
+        let origin = origin - self.middle;
+        let (mut nearest, mut found) = (length, None);
+        self.hierarchy.ray_traverse(
+            narrow(origin, direction, length),
+            &mut RayHit::none(),
+            |ray, index| match self.triangles[index].meet(origin, direction) {
+                Some(meeting) if meeting.distance > 0.0 && meeting.distance < nearest => {
+                    nearest = meeting.distance;
+                    found = Some((index, meeting));
+                    // The tree may drop boxes beyond this: never less than the exact distance, never more than before.
+                    ((nearest * (1.0 + PADDING)) as f32).min(ray.tmax.next_down())
+                }
+                _ => f32::INFINITY,
+            },
+        );
+        found.map(|(index, meeting)| {
+            self.triangles[index].hit(&meeting, origin, direction, self.middle)
+        })
+    }
+
+    /// Whether nothing lies on the open segment between two points.
+    pub fn free(&self, from: DVec3, to: DVec3) -> bool {
+        let origin = from - self.middle;
+        let direction = to - from;
+        self.hierarchy
+            .ray_traverse_miss(narrow(origin, direction, 1.0), |_, index| {
+                match self.triangles[index].meet(origin, direction) {
+                    Some(meeting) if meeting.distance > 0.0 && meeting.distance < 1.0 => 0.0,
+                    _ => f32::INFINITY,
+                }
+            })
+    }
+}
+
+/// The tree's ray. Its end is moved out by one part in a million, so that no box is dropped that `f64` would enter.
+fn narrow(origin: DVec3, direction: DVec3, length: f64) -> Ray {
+    let end = ((length * (1.0 + PADDING)) as f32).min(f32::MAX);
+    Ray::new(
+        Vec3A::from(origin.as_vec3()),
+        Vec3A::from(direction.as_vec3()),
+        0.0,
+        end,
+    )
+}
+
+fn triangles_of(scene: &Scene, middle: DVec3) -> Vec<Triangle> {
+    let mut triangles = Vec::with_capacity(scene.triangle_count());
+    for (mesh_index, mesh) in scene.meshes.iter().enumerate() {
+        for triangle in &mesh.triangles {
+            let [a, b, c] = triangle.map(|i| mesh.positions[i as usize].as_dvec3() - middle);
+            triangles.push(Triangle {
+                corner: a,
+                edges: [b - a, c - a],
+                shading_normals: triangle.map(|i| mesh.normals[i as usize].as_dvec3()),
+                mesh: mesh_index as u32,
+            });
+        }
+    }
+    triangles
+}
+
+/// Where a line meets a triangle.
+struct Meeting {
+    distance: f64,
+    /// Weights of the second and third corner.
+    barycentric: [f64; 2],
+}
+
+impl Triangle {
+    fn padded_box(&self, padding: f64) -> Aabb {
+        let corners = [
+            self.corner,
+            self.corner + self.edges[0],
+            self.corner + self.edges[1],
+        ];
+        let min = corners[0].min(corners[1]).min(corners[2]) - padding;
+        let max = corners[0].max(corners[1]).max(corners[2]) + padding;
+        Aabb::new(Vec3A::from(min.as_vec3()), Vec3A::from(max.as_vec3()))
+    }
+
+    /// `origin + t direction = corner + u e_0 + v e_1`, solved by Cramer's rule.
+    fn meet(&self, origin: DVec3, direction: DVec3) -> Option<Meeting> {
+        let [e0, e1] = self.edges;
+        let p = direction.cross(e1);
+        let determinant = e0.dot(p);
+        if determinant == 0.0 {
+            return None;
+        }
+        let inverse = 1.0 / determinant;
+        let s = origin - self.corner;
+        let u = s.dot(p) * inverse;
+        let q = s.cross(e0);
+        let v = direction.dot(q) * inverse;
+        let inside = u >= -EDGE_TOLERANCE && v >= -EDGE_TOLERANCE && u + v <= 1.0 + EDGE_TOLERANCE;
+        inside.then(|| Meeting {
+            distance: e1.dot(q) * inverse,
+            barycentric: [u, v],
+        })
+    }
+
+    fn hit(&self, meeting: &Meeting, origin: DVec3, direction: DVec3, middle: DVec3) -> Hit {
+        let towards_origin = |normal: DVec3| {
+            if normal.dot(direction) > 0.0 {
+                -normal
+            } else {
+                normal
+            }
+        };
+        let geometric_normal = towards_origin(self.edges[0].cross(self.edges[1]).normalize());
+
+        let [u, v] = meeting.barycentric;
+        let [n0, n1, n2] = self.shading_normals;
+        let interpolated = (n0 * (1.0 - u - v) + n1 * u + n2 * v).normalize_or(geometric_normal);
+        let shading_normal = if interpolated.dot(geometric_normal) < 0.0 {
+            -interpolated
+        } else {
+            interpolated
+        };
+        Hit {
+            distance: meeting.distance,
+            position: origin + direction * meeting.distance + middle,
+            geometric_normal,
+            shading_normal,
+            mesh: self.mesh as usize,
+        }
+    }
+}

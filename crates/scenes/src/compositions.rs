@@ -1,0 +1,14 @@
+//! The compositions of the catalogue. Each file sets one stage: models, floor, camera, light.
+
+mod contact;
+mod recital;
+mod stairwell;
+mod yard;
+
+pub use contact::contact;
+pub use recital::recital;
+pub use stairwell::stairwell;
+pub use yard::yard;
+
+/// Pictures are composed for 16:9; a program with another window sets its own aspect.
+const ASPECT: f64 = 16.0 / 9.0;

@@ -1,0 +1,297 @@
+//! glTF 2.0: `.gltf` with embedded or external buffers and `.glb`; the default scene with its node transforms.
+//!
+//! Lengths are metres and y is up, as the format says. Colour is the base colour factor, which is linear, times the
+//! texture's mean where the texture can be read; alpha is ignored, so that masked leaves cast whole quads. Not read:
+//! skins, morph targets, cameras, lights, compressed meshes. Only triangle lists, strips and fans count.
+
+use crate::polygon::has_area;
+use crate::shading::{Loose, index};
+use crate::{Error, Mesh};
+use glam::{DAffine3, DMat4, Mat4, Vec3};
+use gltf::mesh::Mode;
+use std::path::Path;
+
+/// The file's parts that every step below needs.
+struct Source<'a> {
+    file: &'a Path,
+    buffers: &'a [gltf::buffer::Data],
+    /// Mean linear colour of each image; white where an image cannot be read.
+    image_means: &'a [Vec3],
+}
+
+/// Loads a glTF file, in metres and world space.
+pub fn load_gltf(file: &Path) -> Result<Vec<Mesh>, Error> {
+    // Decode the document and its buffers.
+    let bytes = std::fs::read(file).map_err(|source| Error::Read {
+        file: file.to_owned(),
+        source,
+    })?;
+    let gltf::Gltf { document, blob } =
+        gltf::Gltf::from_slice(&bytes).map_err(|problem| not_gltf(file, &problem))?;
+    let buffers = gltf::import_buffers(&document, file.parent(), blob)
+        .map_err(|problem| bad_buffer(file, &problem))?;
+    let image_means = crate::gltf_color::image_means(&document, file, &buffers);
+    let source = Source {
+        file,
+        buffers: &buffers,
+        image_means: &image_means,
+    };
+
+    // Walk the default scene, or the first, or all root nodes of a file without scenes.
+    let mut meshes = Vec::new();
+    match document
+        .default_scene()
+        .or_else(|| document.scenes().next())
+    {
+        Some(scene) => {
+            for node in scene.nodes() {
+                source.add_node(&node, DMat4::IDENTITY, &mut meshes)?;
+            }
+        }
+        None => {
+            for node in document.nodes() {
+                source.add_node(&node, DMat4::IDENTITY, &mut meshes)?;
+            }
+        }
+    }
+
+    if meshes.is_empty() {
+        return Err(source.content(
+            "as a whole",
+            "no triangles",
+            "allowed is glTF 2.0 with at least one triangle that has an area",
+        ));
+    }
+    Ok(meshes)
+}
+
+impl Source<'_> {
+    fn content(
+        &self,
+        place: impl Into<String>,
+        problem: impl Into<String>,
+        allowed: &'static str,
+    ) -> Error {
+        Error::Content {
+            file: self.file.to_owned(),
+            place: place.into(),
+            problem: problem.into(),
+            allowed,
+        }
+    }
+
+    fn add_node(
+        &self,
+        node: &gltf::Node<'_>,
+        world_from_parent: DMat4,
+        meshes: &mut Vec<Mesh>,
+    ) -> Result<(), Error> {
+        let parent_from_node = Mat4::from_cols_array_2d(&node.transform().matrix()).as_dmat4();
+        let world_from_node = world_from_parent * parent_from_node;
+        if !world_from_node.is_finite() {
+            return Err(self.content(
+                format!("node {}", node.index()),
+                "a transform that is not finite",
+                "allowed are finite numbers",
+            ));
+        }
+
+        if let Some(mesh) = node.mesh() {
+            for primitive in mesh.primitives() {
+                let place = format!("mesh {} primitive {}", mesh.index(), primitive.index());
+                let loose = self.loose_triangles(&primitive, &place)?;
+                if loose.corners.is_empty() {
+                    continue;
+                }
+                let (positions, normals, triangles) = index(&loose);
+                let named = Mesh {
+                    name: mesh.name().map_or(place, str::to_owned),
+                    positions,
+                    normals,
+                    triangles,
+                    linear_color: crate::gltf_color::linear_color(
+                        &primitive.material(),
+                        self.image_means,
+                    ),
+                };
+                meshes.push(named.transformed(&DAffine3::from_mat4(world_from_node)));
+            }
+        }
+        for child in node.children() {
+            self.add_node(&child, world_from_node, meshes)?;
+        }
+        Ok(())
+    }
+
+    /// The triangles of a primitive in the node's space; points and lines give none.
+    fn loose_triangles(
+        &self,
+        primitive: &gltf::Primitive<'_>,
+        place: &str,
+    ) -> Result<Loose, Error> {
+        if !matches!(
+            primitive.mode(),
+            Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
+        ) {
+            return Ok(Loose::default());
+        }
+
+        // Check every accessor before it is read: the reader trusts the lengths in the file.
+        let Some(position_accessor) = primitive.get(&gltf::Semantic::Positions) else {
+            return Ok(Loose::default());
+        };
+        let normal_accessor = primitive.get(&gltf::Semantic::Normals);
+        let accessors = [
+            Some(position_accessor),
+            normal_accessor,
+            primitive.indices(),
+        ];
+        for accessor in accessors.iter().flatten() {
+            self.check_range(accessor)?;
+        }
+
+        // Read.
+        let reader =
+            primitive.reader(|buffer| self.buffers.get(buffer.index()).map(|data| &data.0[..]));
+        let vectors = |values: Option<Vec<[f32; 3]>>| {
+            values
+                .unwrap_or_default()
+                .into_iter()
+                .map(Vec3::from_array)
+                .collect::<Vec<_>>()
+        };
+        let positions = vectors(reader.read_positions().map(Iterator::collect));
+        let normals = vectors(reader.read_normals().map(Iterator::collect));
+        if let Some(vertex) = positions
+            .iter()
+            .chain(&normals)
+            .position(|p| !p.is_finite())
+        {
+            return Err(self.content(
+                format!("{place} vertex {}", vertex % positions.len()),
+                "a coordinate that is not finite",
+                "allowed are finite numbers",
+            ));
+        }
+        let indices: Vec<u32> = match reader.read_indices() {
+            Some(indices) => indices.into_u32().collect(),
+            None => (0..positions.len() as u32).collect(),
+        };
+        if let Some(&index) = indices.iter().find(|&&i| i as usize >= positions.len()) {
+            return Err(self.content(
+                place,
+                format!("index {index} where {} vertices are given", positions.len()),
+                "allowed are indices below the number of vertices",
+            ));
+        }
+
+        let mut loose = Loose::default();
+        for triangle in triangles_of(primitive.mode(), &indices) {
+            let triangle = triangle.map(|i| i as usize);
+            let corners = triangle.map(|i| positions[i]);
+            if has_area(corners) {
+                loose.corners.push(corners);
+                loose
+                    .normals
+                    .push(triangle.map(|i| normals.get(i).copied().unwrap_or(Vec3::ZERO)));
+            }
+        }
+        Ok(loose)
+    }
+
+    /// Whether an accessor, its view and its buffer agree about their lengths.
+    fn check_range(&self, accessor: &gltf::Accessor<'_>) -> Result<(), Error> {
+        let place = format!("accessor {}", accessor.index());
+        if accessor.sparse().is_some() {
+            return Err(self.content(place, "sparse values", "allowed are plain accessors"));
+        }
+        let Some(view) = accessor.view() else {
+            return Err(self.content(place, "no buffer view", "allowed are plain accessors"));
+        };
+        let available = self
+            .buffers
+            .get(view.buffer().index())
+            .map_or(0, |data| data.0.len());
+        let stride = view.stride().unwrap_or_else(|| accessor.size());
+        let end_in_view = accessor
+            .count()
+            .checked_sub(1)
+            .and_then(|last| last.checked_mul(stride))
+            .and_then(|start| start.checked_add(accessor.size()))
+            .and_then(|end| end.checked_add(accessor.offset()));
+        let view_end = view.offset().checked_add(view.length());
+        match (end_in_view, view_end) {
+            (Some(end), Some(view_end)) if end <= view.length() && view_end <= available => Ok(()),
+            _ => Err(self.content(
+                place,
+                format!(
+                    "{} values of {} bytes do not lie in the {available} bytes of buffer {}",
+                    accessor.count(),
+                    accessor.size(),
+                    view.buffer().index()
+                ),
+                "allowed are accessors inside their buffer view, with at least one value",
+            )),
+        }
+    }
+}
+
+/// The triangles of a list, a strip (every second one turned) or a fan.
+fn triangles_of(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
+    match mode {
+        Mode::TriangleStrip => indices
+            .windows(3)
+            .enumerate()
+            .map(|(i, w)| {
+                if i % 2 == 0 {
+                    [w[0], w[1], w[2]]
+                } else {
+                    [w[1], w[0], w[2]]
+                }
+            })
+            .collect(),
+        Mode::TriangleFan => indices
+            .get(1..)
+            .unwrap_or_default()
+            .windows(2)
+            .map(|w| [w[0], w[1], indices[0]])
+            .collect(),
+        _ => indices
+            .chunks_exact(3)
+            .map(|c| [c[0], c[1], c[2]])
+            .collect(),
+    }
+}
+
+fn not_gltf(file: &Path, problem: &gltf::Error) -> Error {
+    Error::Content {
+        file: file.to_owned(),
+        place: "as a whole".to_owned(),
+        problem: one_line(problem),
+        allowed: "allowed is glTF 2.0, as JSON (.gltf) or binary (.glb)",
+    }
+}
+
+fn bad_buffer(file: &Path, problem: &gltf::Error) -> Error {
+    let (place, problem) = match problem {
+        gltf::Error::BufferLength {
+            buffer,
+            expected,
+            actual,
+        } => (
+            format!("buffer {buffer}"),
+            format!("{actual} bytes where {expected} are announced"),
+        ),
+        other => ("buffers".to_owned(), one_line(other)),
+    };
+    Error::Content {
+        file: file.to_owned(),
+        place,
+        problem,
+        allowed: "allowed are whole buffers: embedded, in the binary chunk, or in a file beside this one",
+    }
+}
+
+fn one_line(problem: &gltf::Error) -> String {
+    problem.to_string().replace('\n', " ")
+}

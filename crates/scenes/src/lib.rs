@@ -1,0 +1,39 @@
+//! Scenes for shadow maps: what casts, what receives, from where it is seen and lit.
+//!
+//! A [`Scene`] is triangles, one camera and one light. It comes from the [`catalogue`], composed of the models in
+//! `assets/` for pictures that show shadows well, or from any `.obj`, `.gltf` or `.glb` file, so that a user's own scene
+//! works without code:
+//!
+//! ```no_run
+//! # fn main() -> Result<(), scumble_scenes::Error> {
+//! let yard = scumble_scenes::open("yard", "assets".as_ref())?;
+//! let own = scumble_scenes::open("models/ship.glb", "assets".as_ref())?;
+//! # Ok(()) }
+//! ```
+//!
+//! Goals: no shadow that the file does not hold (concave polygons are cut by ears, not as fans), every problem of a file as
+//! one line that names file and place, everything in metres.
+//! Not goals: textures, animation, transparency; a mesh has one colour.
+
+mod automatic;
+mod catalogue;
+mod compositions;
+mod error;
+mod gltf_color;
+mod gltf_file;
+mod mesh;
+mod model;
+mod obj;
+mod obj_lines;
+mod polygon;
+mod scene;
+mod shading;
+mod shapes;
+
+pub use catalogue::{Entry, catalogue, open};
+pub use error::Error;
+pub use gltf_file::load_gltf;
+pub use mesh::{Mesh, bounds_of};
+pub use obj::load_obj;
+pub use scene::Scene;
+pub use shapes::{cuboid, ground};

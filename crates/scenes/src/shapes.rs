@@ -1,0 +1,103 @@
+//! Procedural shapes: the ground and the box. Corners are doubled at edges, so that every face is flat-shaded.
+
+use crate::Mesh;
+use glam::{DVec3, Vec3};
+
+/// A horizontal square at height `center.y`, normal up, `size` metres on a side, two triangles.
+pub fn ground(name: &str, center: DVec3, size: f64, linear_color: Vec3) -> Mesh {
+    let half = size / 2.0;
+    let corner = |x: f64, z: f64| center + DVec3::new(x * half, 0.0, z * half);
+    let mut mesh = empty(name, linear_color);
+    push_quad(
+        &mut mesh,
+        [
+            corner(-1.0, 1.0),
+            corner(1.0, 1.0),
+            corner(1.0, -1.0),
+            corner(-1.0, -1.0),
+        ],
+    );
+    mesh
+}
+
+/// An axis-aligned box between two corners, normals outwards, twelve triangles.
+pub fn cuboid(name: &str, min: DVec3, max: DVec3, linear_color: Vec3) -> Mesh {
+    // Corner i takes max where bit 0, 1, 2 of i is set for x, y, z; faces counter-clockwise from outside.
+    const FACES: [[usize; 4]; 6] = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    let corner = |i: usize| {
+        let pick = |axis: usize| {
+            if i >> axis & 1 == 1 {
+                max[axis]
+            } else {
+                min[axis]
+            }
+        };
+        DVec3::new(pick(0), pick(1), pick(2))
+    };
+    let mut mesh = empty(name, linear_color);
+    for face in FACES {
+        push_quad(&mut mesh, face.map(corner));
+    }
+    mesh
+}
+
+fn empty(name: &str, linear_color: Vec3) -> Mesh {
+    Mesh {
+        name: name.to_owned(),
+        positions: Vec::new(),
+        normals: Vec::new(),
+        triangles: Vec::new(),
+        linear_color,
+    }
+}
+
+/// Appends a planar quad, counter-clockwise from the side of its normal.
+fn push_quad(mesh: &mut Mesh, corners: [DVec3; 4]) {
+    let first = mesh.positions.len() as u32;
+    let normal = (corners[1] - corners[0])
+        .cross(corners[2] - corners[0])
+        .normalize()
+        .as_vec3();
+    mesh.positions.extend(corners.map(|c| c.as_vec3()));
+    mesh.normals.extend([normal; 4]);
+    mesh.triangles
+        .extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_is_closed_and_faces_outwards() {
+        let mesh = cuboid("box", DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), Vec3::ONE);
+        assert_eq!(mesh.triangles.len(), 12);
+
+        // Divergence theorem: the signed volume of a closed outward surface is the volume.
+        let volume: f32 = mesh
+            .triangles
+            .iter()
+            .map(|t| {
+                let [a, b, c] = t.map(|i| mesh.positions[i as usize]);
+                a.dot(b.cross(c)) / 6.0
+            })
+            .sum();
+        assert!((volume - 6.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn the_ground_faces_up() {
+        let mesh = ground("ground", DVec3::new(1.0, -2.0, 3.0), 4.0, Vec3::ONE);
+        assert!(mesh.normals.iter().all(|&n| n == Vec3::Y));
+        let bounds = mesh.bounds().unwrap();
+        assert_eq!(bounds.min, DVec3::new(-1.0, -2.0, 1.0));
+        assert_eq!(bounds.max, DVec3::new(3.0, -2.0, 5.0));
+    }
+}
