@@ -1,0 +1,47 @@
+//! How large a shadow map must be so that nobody sees its texels: the method without a GPU.
+//!
+//! A filter of radius r hides texels up to a = r / c (Kreuzer 2017: c = 3.47, measured with people). So the softness that
+//! a light asks for decides how many texels its map needs, and a soft shadow needs few. One frame:
+//!
+//! 1. [`fit`] limits the light's view to what the observer sees: [`Fit`], with its extent L in x and y.
+//! 2. The screen's demand is its smallest filter radius r, [`Demand`]: the filter's own radius for percentage closer
+//!    filtering, measured from the last map for soft shadows.
+//! 3. [`Relation`] turns them into N = c L / r texels, x and y apart.
+//! 4. [`SizePolicy`] makes that a [`Size`] which changes rarely, within the caps, and says what it achieves.
+//! 5. The renderer draws a map of that size with [`Fit::clip_from_world`] and filters it as [`filter`] does: radius in
+//!    world units, taps of [`poisson_disc`], bias of [`ReceiverPlane`].
+//!
+//! Lengths are metres, angles radians. Matrices are named `to_from_from`: `light_from_world` takes world coordinates to
+//! light space. World space is right-handed; clip space is wgpu's. This crate knows no GPU, file, clock or window.
+//! It does not split views into cascades, and it does not snap boxes to texels.
+
+mod aabb;
+mod bias;
+mod camera;
+mod error;
+pub mod filter;
+mod fit;
+mod kernel;
+mod light;
+mod policy;
+mod polyhedron;
+mod relation;
+mod relation_file;
+mod settings;
+
+pub use aabb::Aabb;
+pub use bias::{Bias, ReceiverPlane};
+pub use camera::Camera;
+pub use error::Error;
+pub use filter::Taps;
+pub use fit::{Fit, fit};
+pub use kernel::{half_plane_under_disc, pixel_hash, poisson_disc, rotation_angle};
+pub use light::Light;
+pub use policy::{Demand, Ladder, Size, SizePolicy, size_achieved};
+pub use polyhedron::{HalfSpace, Polyhedron};
+pub use relation::{RATIO_MAX, ROUNDING_SLACK, Relation, whole_texels};
+pub use relation_file::{
+    ConditionEstimate, Estimate, FormTests, NullTest, PopulationPoint, RelationFile, SCHEMA,
+    SessionHash,
+};
+pub use settings::{Filter, Settings, pixel_footprint_world};

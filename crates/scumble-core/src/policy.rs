@@ -1,0 +1,248 @@
+//! From a demand to a size that a map can have, frame by frame.
+//!
+//! Demand: the smallest radius r on screen, at the reference plane; `N = c (L / r)` texels in x and y apart. A size is a
+//! rung of a ladder of a quarter octave, `{1, 1.189, 1.414, 1.682} 2^k` rounded up to multiples of 8: on average 1.19
+//! times the area that was asked for, where powers of two give 2.16. It grows at once, since too few texels show. It
+//! shrinks when the demand stayed 20 % below for 30 frames, to the largest demand of these, by an octave at most (Kreuzer
+//! 2017, 6.2 restricts the rate): sizes that change every frame make silhouettes wobble.
+//!
+//! When the cap binds the size says what it achieves: `c_effective = N r / L`, and `r_min = c L / N`, the smallest radius
+//! whose texels it hides.
+
+use glam::DVec2;
+
+use crate::error::Error;
+use crate::relation::{Relation, whole_texels};
+use crate::settings::Settings;
+
+/// Sizes are multiples of this many texels.
+const MULTIPLE: u32 = 8;
+
+/// What the screen asks of a map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Demand {
+    /// The smallest filter radius on screen, in metres at the reference plane; see
+    /// [`Settings::demand_radius_world`](crate::Settings::demand_radius_world).
+    Radius(f64),
+    /// No penumbra on screen: the size stays, or is the smallest when there is none yet.
+    Nothing,
+}
+
+/// A size, and what it achieves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    /// Texels in x and y.
+    pub texels: [u32; 2],
+    /// Radius of the demand in texels of this size, the smaller of x and y: at least c unless `capped`. Without a demand, c.
+    pub c_effective: f64,
+    /// Smallest radius whose texels this size hides, in metres at the reference plane.
+    pub radius_min_world: f64,
+    /// Whether the demand asks for more than the cap.
+    pub capped: bool,
+}
+
+/// The sizes that a map can have, smallest first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ladder {
+    rungs: Vec<u32>,
+}
+
+impl Ladder {
+    /// The rungs from `floor` to `cap`; the ends are rounded to multiples of 8, up and down, and are rungs themselves.
+    #[must_use]
+    pub fn new(floor: u32, cap: u32) -> Self {
+        let top = (cap / MULTIPLE * MULTIPLE).max(MULTIPLE);
+        let bottom = floor.next_multiple_of(MULTIPLE).clamp(MULTIPLE, top);
+        let quarter_octaves = (0..).map(|i: i32| {
+            whole_texels((f64::from(i) / 4.0).exp2(), u32::MAX).next_multiple_of(MULTIPLE)
+        });
+        let between = quarter_octaves
+            .skip_while(|&n| n <= bottom)
+            .take_while(|&n| n < top);
+        let mut rungs: Vec<u32> = std::iter::once(bottom)
+            .chain(between)
+            .chain([top])
+            .collect();
+        rungs.dedup();
+        Self { rungs }
+    }
+
+    /// All sizes, smallest first.
+    #[must_use]
+    pub fn rungs(&self) -> &[u32] {
+        &self.rungs
+    }
+
+    /// Index of the smallest rung that holds `resolution` texels; the last when none does.
+    #[must_use]
+    pub fn rung(&self, resolution: f64) -> usize {
+        let texels = whole_texels(resolution, u32::MAX);
+        self.rungs
+            .partition_point(|&n| n < texels)
+            .min(self.rungs.len() - 1)
+    }
+
+    /// The size at an index.
+    #[must_use]
+    pub fn texels(&self, rung: usize) -> u32 {
+        self.rungs[rung]
+    }
+
+    fn top(&self) -> u32 {
+        self.rungs[self.rungs.len() - 1]
+    }
+}
+
+/// The state of one axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Axis {
+    rung: Option<usize>,
+    frames_below: u32,
+    largest_below: f64,
+}
+
+/// The state of one map's size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizePolicy {
+    settings: Settings,
+    ladder: Ladder,
+    axes: [Axis; 2],
+}
+
+impl SizePolicy {
+    /// A map without a size yet.
+    ///
+    /// # Errors
+    /// As [`Settings::checked`].
+    pub fn new(settings: &Settings) -> Result<Self, Error> {
+        let settings = settings.checked()?;
+        let ladder = Ladder::new(settings.floor, settings.cap);
+        Ok(Self {
+            settings,
+            ladder,
+            axes: [Axis::default(); 2],
+        })
+    }
+
+    /// The sizes that this policy chooses from.
+    #[must_use]
+    pub fn ladder(&self) -> &Ladder {
+        &self.ladder
+    }
+
+    /// The size for the next frame, of a map whose box measures `extent_world` at the reference plane.
+    ///
+    /// # Errors
+    /// As [`Relation::resolution`]; the state is then as before.
+    pub fn next(&mut self, extent_world: DVec2, demand: Demand) -> Result<Size, Error> {
+        let relation = self.settings.relation;
+        match demand {
+            Demand::Radius(radius_world) => {
+                let radius = clamped(radius_world, self.settings.radius_min_world);
+                let wanted = [
+                    relation.resolution(extent_world.x, radius)?,
+                    relation.resolution(extent_world.y, radius)?,
+                ];
+                for (axis, n) in self.axes.iter_mut().zip(wanted) {
+                    axis.step(n, &self.ladder, &self.settings);
+                }
+                Ok(size_achieved(
+                    self.texels(),
+                    extent_world,
+                    Some(radius),
+                    &relation,
+                    self.ladder.top(),
+                ))
+            }
+            Demand::Nothing => {
+                // Checks the extents, which the answer depends on.
+                relation.resolution(extent_world.x, 0.0)?;
+                relation.resolution(extent_world.y, 0.0)?;
+                for axis in &mut self.axes {
+                    *axis = Axis {
+                        rung: Some(axis.rung.unwrap_or(0)),
+                        ..Axis::default()
+                    };
+                }
+                Ok(size_achieved(
+                    self.texels(),
+                    extent_world,
+                    None,
+                    &relation,
+                    self.ladder.top(),
+                ))
+            }
+        }
+    }
+
+    fn texels(&self) -> [u32; 2] {
+        self.axes
+            .map(|axis| self.ladder.texels(axis.rung.unwrap_or(0)))
+    }
+}
+
+impl Axis {
+    /// Grows at once; shrinks late, and not far.
+    fn step(&mut self, wanted: f64, ladder: &Ladder, settings: &Settings) {
+        let target = ladder.rung(wanted);
+        let Some(rung) = self.rung.filter(|&rung| rung >= target) else {
+            *self = Self {
+                rung: Some(target),
+                ..Self::default()
+            };
+            return;
+        };
+        if wanted > (1.0 - settings.shrink_below) * f64::from(ladder.texels(rung)) {
+            *self = Self {
+                rung: Some(rung),
+                ..Self::default()
+            };
+            return;
+        }
+        self.frames_below += 1;
+        self.largest_below = self.largest_below.max(wanted);
+        if self.frames_below >= settings.shrink_after_frames {
+            let lowest = rung.saturating_sub(settings.shrink_rungs as usize);
+            *self = Self {
+                rung: Some(ladder.rung(self.largest_below).max(lowest)),
+                ..Self::default()
+            };
+        }
+    }
+}
+
+/// The larger of two radii; keeps NaN and a minus sign, for the relation to refuse.
+fn clamped(radius: f64, least: f64) -> f64 {
+    if radius >= least && radius.is_sign_positive() || radius.is_nan() || radius.is_sign_negative()
+    {
+        radius
+    } else {
+        least
+    }
+}
+
+/// What a size achieves against a demand, or by itself.
+#[must_use]
+pub fn size_achieved(
+    texels: [u32; 2],
+    extent_world: DVec2,
+    radius_world: Option<f64>,
+    relation: &Relation,
+    cap: u32,
+) -> Size {
+    let texel =
+        (extent_world / DVec2::new(f64::from(texels[0]), f64::from(texels[1]))).max_element();
+    let wanted = |extent: f64, radius: f64| {
+        whole_texels(
+            relation.resolution(extent, radius).unwrap_or(f64::INFINITY),
+            u32::MAX,
+        )
+    };
+    let capped = radius_world.is_some_and(|r| wanted(extent_world.max_element(), r) > cap);
+    Size {
+        texels,
+        c_effective: radius_world.map_or(relation.ratio(), |r| r / texel),
+        radius_min_world: relation.radius_from_texel(texel),
+        capped,
+    }
+}
