@@ -1,0 +1,166 @@
+//! The whole analysis: thresholds, every series, the worst of them, and the file for renderers.
+
+use scumble_core::{
+    ConditionEstimate, Estimate, FormTests, NullTest, PopulationPoint as FilePoint, Relation,
+    RelationFile, SCHEMA,
+};
+
+use crate::{
+    Error,
+    estimate::MeanOverPeople,
+    people::Study,
+    population::Population,
+    series::{Series, pattern_name},
+    thresholds::{ConditionThreshold, lapse_of, thresholds_of},
+    weibull::Weibull,
+};
+
+/// Name and version of this program, as `relation.json` carries it.
+pub const SOFTWARE: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
+
+/// What a study says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Analysis {
+    /// Every person's thresholds, in the order of people and conditions.
+    pub thresholds: Vec<ConditionThreshold>,
+    /// Every pattern and contrast with thresholds of at least two people.
+    pub series: Vec<Series>,
+    /// Index of the worst series: the largest ratio. It is the renderer's number.
+    pub worst: usize,
+    /// The viewers of the worst series.
+    pub population: Population,
+    /// What was left out and why, in sentences.
+    pub exclusions: Vec<String>,
+}
+
+impl Analysis {
+    /// Analyses a study.
+    ///
+    /// # Errors
+    /// The reason why the data carry no fit: fewer than two people with thresholds in every pattern
+    /// and contrast, or no condition in which the experiment converged.
+    pub fn of(study: &Study) -> Result<Self, Error> {
+        let protocol = &study.protocol;
+        let thresholds: Vec<_> =
+            study.people.iter().flat_map(|person| thresholds_of(person, protocol)).collect();
+        if !thresholds.iter().any(|entry| entry.converged) {
+            return Err(Error::CannotFit(format!(
+                "none of {} conditions converged in any of {} people",
+                thresholds.len(),
+                study.people.len()
+            )));
+        }
+
+        let (mut series, mut exclusions) = (Vec::new(), left_out(&thresholds));
+        let mut refusal = None;
+        for (pattern, contrast) in protocol.rounds() {
+            match Series::of(pattern, contrast, &thresholds) {
+                Ok(found) => series.push(found),
+                Err(reason) => {
+                    exclusions.push(reason.to_string());
+                    refusal = refusal.or(Some(reason));
+                }
+            }
+        }
+        let no_series = || Error::CannotFit("the protocol has no round".to_owned());
+        let Some(worst) = (0..series.len())
+            .max_by(|&a, &b| series[a].log10_ratio.mean.total_cmp(&series[b].log10_ratio.mean))
+        else {
+            return Err(refusal.unwrap_or_else(no_series));
+        };
+
+        let psychometric = Weibull {
+            location: 0.0,
+            slope: protocol.slope_per_log10,
+            guess: protocol.guess_probability,
+            lapse: lapse_of(protocol),
+        };
+        let at_threshold = psychometric.x_at_correct(protocol.threshold_probability);
+        let population = Population {
+            thresholds: series[worst].log10_ratio,
+            measurement_variance: series[worst].measurement_variance(),
+            detection_at_threshold: at_threshold.map_or(f64::NAN, |x| psychometric.detection(x)),
+            slope: protocol.slope_per_log10,
+        };
+        Ok(Self { thresholds, series, worst, population, exclusions })
+    }
+
+    /// The series whose ratio a renderer uses.
+    pub fn worst(&self) -> &Series {
+        &self.series[self.worst]
+    }
+
+    /// `relation.json` of this analysis.
+    ///
+    /// # Errors
+    /// The schema's own check refuses the result: a ratio above 64, for instance.
+    pub fn relation_file(&self, study: &Study) -> Result<RelationFile, Error> {
+        let worst = self.worst();
+        let file = RelationFile {
+            schema: SCHEMA.to_owned(),
+            ratio: ratio_of(worst),
+            population: self
+                .population
+                .curve()?
+                .iter()
+                .map(|point| FilePoint {
+                    viewers: point.viewers,
+                    detection: point.detection,
+                    ratio: Estimate {
+                        value: point.ratio,
+                        standard_error: point.standard_error,
+                        ci95: point.ci95,
+                    },
+                })
+                .collect(),
+            kernel: Some("disc".to_owned()),
+            tests: worst.intercept_px.zip(worst.exponent).map(|(intercept, exponent)| FormTests {
+                intercept: null_test(&intercept, 0.0),
+                exponent: null_test(&exponent, 1.0),
+            }),
+            conditions: self
+                .series
+                .iter()
+                .map(|series| ConditionEstimate {
+                    pattern: pattern_name(series.pattern).to_owned(),
+                    contrast: series.contrast,
+                    ratio: ratio_of(series),
+                })
+                .collect(),
+            people: Some(study.people.len() as u64),
+            trials: Some(study.trial_count() as u64),
+            sessions: study.session_hashes(),
+            software: Some(SOFTWARE.to_owned()),
+        };
+        // What a renderer could not read is not written.
+        Relation::from_json(&file.to_json()?)?;
+        Ok(file)
+    }
+}
+
+fn ratio_of(series: &Series) -> Estimate {
+    Estimate {
+        value: series.ratio(),
+        standard_error: series.ratio_standard_error(),
+        ci95: series.ratio_ci95(),
+    }
+}
+
+fn null_test(mean: &MeanOverPeople, null: f64) -> NullTest {
+    let estimate =
+        Estimate { value: mean.mean, standard_error: mean.standard_error, ci95: mean.ci95 };
+    NullTest { estimate, null, p_value: mean.p_value(null) }
+}
+
+/// A sentence for every condition without a threshold.
+fn left_out(thresholds: &[ConditionThreshold]) -> Vec<String> {
+    thresholds
+        .iter()
+        .filter_map(|entry| {
+            let reason = entry.threshold.err()?;
+            let condition = &entry.condition;
+            let series = crate::series::series_name(condition.pattern, condition.contrast);
+            Some(format!("{}, {series}, {} px: {reason}", entry.person, condition.texel_px))
+        })
+        .collect()
+}

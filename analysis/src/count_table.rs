@@ -1,0 +1,106 @@
+//! A table of correct answers per level, and its psychometric function (command `threshold`).
+//!
+//! Columns `level,n_correct,n_total`; the fit works on `x = log10(level)`.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    Error,
+    maximum_likelihood::{Count, Model, Parameter, fit},
+};
+
+/// Probability of a correct answer that defines the reported threshold `x82` (Kreuzer 2017, 4.2).
+const CORRECT_AT_THRESHOLD: f64 = 0.82;
+
+#[derive(Deserialize)]
+struct Row {
+    level: f64,
+    n_correct: f64,
+    n_total: f64,
+}
+
+/// Result of the command `threshold`; the fields are keys of its JSON.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CountTableFit {
+    /// Location of the Weibull function, log10 of the level.
+    pub threshold_t: f64,
+    /// Slope per decade.
+    pub slope_beta: f64,
+    /// Lapse rate.
+    pub lapse: f64,
+    /// Guess rate.
+    pub guess: f64,
+    /// Negative log likelihood without binomial coefficients.
+    pub nll: f64,
+    /// Deviance against the saturated model.
+    pub deviance: f64,
+    /// log10 of the level at 82 % correct; `null` where the function never gets there.
+    pub x82: Option<f64>,
+    /// Standard error of `threshold_t`.
+    pub se_t: f64,
+    /// Standard error of `slope_beta`.
+    pub se_beta: Option<f64>,
+    /// Standard error of a free lapse rate; `null` for a fixed one or one at an end of its range.
+    pub se_lapse: Option<f64>,
+}
+
+/// Reads a table of `level,n_correct,n_total`.
+///
+/// # Errors
+/// Names file and line of the first cell that is not a positive level or a pair of whole numbers
+/// `0 <= n_correct <= n_total`.
+pub fn read_count_table(path: &Path) -> Result<Vec<Count>, Error> {
+    let mut counts = Vec::new();
+    crate::table::read_rows(path, &["level", "n_correct", "n_total"], |row: Row| {
+        let whole = |value: f64| value.is_finite() && value >= 0.0 && value.fract() == 0.0;
+        if !(row.level.is_finite() && row.level > 0.0) {
+            return Err(format!("level is {}; allowed is a finite number above 0", row.level));
+        }
+        if !whole(row.n_correct) || !whole(row.n_total) || row.n_correct > row.n_total {
+            return Err(format!(
+                "n_correct is {} of n_total {}; allowed are whole numbers, n_correct at most n_total",
+                row.n_correct, row.n_total
+            ));
+        }
+        counts.push(Count { x: row.level.log10(), correct: row.n_correct, total: row.n_total });
+        Ok(())
+    })?;
+    Ok(counts)
+}
+
+/// Fits location and slope, and the lapse rate where it is free, to a table.
+///
+/// # Errors
+/// A guess or lapse rate out of range, or data that do not bound the function.
+pub fn fit_count_table(
+    counts: &[Count],
+    guess: f64,
+    lapse: Parameter,
+) -> Result<CountTableFit, Error> {
+    let in_range = |name, value: f64, below: f64, allowed| {
+        let good = (0.0..below).contains(&value);
+        let refusal = || Error::Argument { name, value: value.to_string(), allowed };
+        good.then_some(()).ok_or_else(refusal)
+    };
+    in_range("--guess", guess, 0.8, "at least 0 and below 0.8")?;
+    if let Parameter::Fixed(value) = lapse {
+        in_range("--lapse", value, 0.2, "at least 0 and below 0.2, or the word free")?;
+    }
+
+    let fitted = fit(counts, &Model { guess, lapse, slope: Parameter::Free })
+        .map_err(|reason| Error::CannotFit(reason.to_string()))?;
+    Ok(CountTableFit {
+        threshold_t: fitted.weibull.location,
+        slope_beta: fitted.weibull.slope,
+        lapse: fitted.weibull.lapse,
+        guess,
+        nll: fitted.negative_log_likelihood,
+        deviance: fitted.deviance,
+        x82: fitted.weibull.x_at_correct(CORRECT_AT_THRESHOLD),
+        se_t: fitted.location_se,
+        se_beta: fitted.slope_se,
+        se_lapse: fitted.lapse_se,
+    })
+}

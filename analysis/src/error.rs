@@ -1,0 +1,109 @@
+//! What can go wrong, said with the file, the place and what is allowed.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// Why data do not carry a psychometric function.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Unidentified {
+    /// No trial.
+    #[error("there is no answer")]
+    NoAnswers,
+    /// Every answer was correct.
+    #[error("all {total} answers were correct: the threshold lies below everything that was shown")]
+    AllCorrect {
+        /// Number of answers.
+        total: f64,
+    },
+    /// No answer was correct.
+    #[error("all {total} answers were wrong: the threshold lies above everything that was shown")]
+    AllWrong {
+        /// Number of answers.
+        total: f64,
+    },
+    /// A slope needs at least two intensities.
+    #[error("all answers are at one level: a slope needs at least two")]
+    OneLevel,
+    /// The answers agree with a threshold arbitrarily far below the data.
+    #[error("the answers do not bound the threshold from below: they also fit an observer who sees everything")]
+    NoLowerBound,
+    /// The answers agree with a threshold arbitrarily far above the data.
+    #[error("the answers do not bound the threshold from above: they also fit an observer who guesses")]
+    NoUpperBound,
+    /// The answers agree with a slope at an end of its range: a jump, or no dependence on the level.
+    #[error("the answers do not bound the slope: they also fit one of {slope} per decade")]
+    Slope {
+        /// That end.
+        slope: f64,
+    },
+    /// The information matrix is singular.
+    #[error("the likelihood is flat: its parameters cannot be told apart")]
+    FlatLikelihood,
+}
+
+/// Errors of the analysis.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// A file or a folder could not be read or written.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// File or folder.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// A table has a wrong cell, row or header.
+    #[error("{}: line {line}: {reason}", path.display())]
+    Table {
+        /// The table.
+        path: PathBuf,
+        /// Line, counted from 1; the header is line 1.
+        line: u64,
+        /// What was found and what is allowed.
+        reason: String,
+    },
+    /// A file or folder is not what it has to be.
+    #[error("{}: {reason}", path.display())]
+    File {
+        /// File or folder.
+        path: PathBuf,
+        /// What was found and what is allowed.
+        reason: String,
+    },
+    /// A value given by the caller is not allowed.
+    #[error("{name} is {value}; allowed is {allowed}")]
+    Argument {
+        /// Name of the option.
+        name: &'static str,
+        /// What was given.
+        value: String,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// The data are readable and do not carry the fit.
+    #[error("the data cannot carry a fit: {0}")]
+    CannotFit(String),
+    /// A figure could not be drawn.
+    #[error("the figure {figure} could not be drawn: {reason}")]
+    Figure {
+        /// Its file name.
+        figure: &'static str,
+        /// The plotting library's reason.
+        reason: String,
+    },
+    /// A part of the study refused: configuration, session or experiment.
+    #[error(transparent)]
+    Psychophysics(#[from] scumble_psychophysics::Error),
+    /// The relation is not one a renderer may use.
+    #[error(transparent)]
+    Relation(#[from] scumble_core::Error),
+}
+
+impl Error {
+    /// Names the file in an input or output error.
+    pub(crate) fn io(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Io { path, source }
+    }
+}

@@ -1,0 +1,189 @@
+//! A pattern at a contrast, over all people and texel sizes: both estimators of the ratio and the
+//! tests of the relation's form.
+//!
+//! *Ours*: per person the mean over texel sizes of the log10 ratios, then the mean over people with
+//! Student's t interval ([`MeanOverPeople`]). Sizes weigh equally, people weigh equally.
+//!
+//! *Published* (Kreuzer 2017, Eq. 5.1): the line through the origin of the mean radii over the texel
+//! sizes; arithmetic means, large texels weigh most. For log-normal people its target is the mean
+//! of the ratios, which lies above the median (by 3 % at a between-person SD of 0.1 log10).
+//!
+//! *Form*: per person the exponent of `r = c a^g` and the intercept of `r = c a + b`, each tested over
+//! people with Student's t. One slope per person keeps the sizes' different errors out of the test.
+
+use scumble_stimuli::Pattern;
+
+use crate::{
+    Error,
+    estimate::{MeanOverPeople, SizePoint, exponent, intercept_px, line_through_origin},
+    thresholds::{ConditionThreshold, Threshold},
+};
+
+/// One person's thresholds in a series.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PersonInSeries {
+    /// The person's code.
+    pub person: String,
+    /// Mean over texel sizes of the log10 ratio at threshold.
+    pub log10_ratio: f64,
+    /// Variance of that mean from the answers' likelihood, log10 units squared.
+    pub measurement_variance: f64,
+    /// Radius at threshold for each texel size.
+    pub points: Vec<SizePoint>,
+}
+
+/// The published estimator with its precision.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OriginLine {
+    /// Slope of the line through the origin of the mean radii: a ratio.
+    pub slope: f64,
+    /// Precision over people, where everyone has every texel size: then the slope of the means is
+    /// the mean of the people's slopes.
+    pub over_people: Option<MeanOverPeople>,
+}
+
+/// A pattern at a contrast.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// The pattern.
+    pub pattern: Pattern,
+    /// Linear light of the lit side, 0..1.
+    pub contrast: f64,
+    /// Texel sizes, pixels, ascending.
+    pub texels_px: Vec<f64>,
+    /// People with at least one threshold here.
+    pub people: Vec<PersonInSeries>,
+    /// Our estimator, log10 of the ratio.
+    pub log10_ratio: MeanOverPeople,
+    /// The published estimator.
+    pub origin_line: OriginLine,
+    /// Exponent `g` over people; `None` where fewer than two people have two sizes.
+    pub exponent: Option<MeanOverPeople>,
+    /// Intercept over people, pixels.
+    pub intercept_px: Option<MeanOverPeople>,
+}
+
+impl Series {
+    /// The series of `pattern` at `contrast` from all thresholds.
+    ///
+    /// # Errors
+    /// Fewer than two people have a threshold here.
+    pub fn of(
+        pattern: Pattern,
+        contrast: f64,
+        thresholds: &[ConditionThreshold],
+    ) -> Result<Self, Error> {
+        let here: Vec<_> = thresholds
+            .iter()
+            .filter(|entry| entry.condition.pattern == pattern)
+            .filter(|entry| entry.condition.contrast == contrast)
+            .collect();
+        let mut texels_px: Vec<f64> = here.iter().map(|entry| entry.condition.texel_px).collect();
+        texels_px.sort_by(f64::total_cmp);
+        texels_px.dedup();
+
+        let mut codes: Vec<&str> = here.iter().map(|entry| entry.person.as_str()).collect();
+        codes.sort_unstable();
+        codes.dedup();
+        let people: Vec<_> = codes.iter().filter_map(|code| person_in_series(code, &here)).collect();
+        let means: Vec<f64> = people.iter().map(|person| person.log10_ratio).collect();
+        let log10_ratio = MeanOverPeople::of(&means).map_err(|reason| {
+            let place = series_name(pattern, contrast);
+            Error::CannotFit(format!("{place}: {reason}").replace("the data cannot carry a fit: ", ""))
+        })?;
+        let over_people = |statistic: fn(&[SizePoint]) -> Option<f64>| {
+            let values: Vec<f64> = people.iter().filter_map(|p| statistic(&p.points)).collect();
+            MeanOverPeople::of(&values).ok()
+        };
+        Ok(Self {
+            pattern,
+            contrast,
+            log10_ratio,
+            origin_line: origin_line(&people, &texels_px)?,
+            exponent: over_people(exponent),
+            intercept_px: over_people(intercept_px),
+            texels_px,
+            people,
+        })
+    }
+
+    /// `step, 100 %`.
+    pub fn name(&self) -> String {
+        series_name(self.pattern, self.contrast)
+    }
+
+    /// The median person's ratio at threshold, radius in texels.
+    pub fn ratio(&self) -> f64 {
+        10_f64.powf(self.log10_ratio.mean)
+    }
+
+    /// Its standard error by the delta method: `c ln 10` times the error of the logarithm.
+    pub fn ratio_standard_error(&self) -> f64 {
+        self.ratio() * std::f64::consts::LN_10 * self.log10_ratio.standard_error
+    }
+
+    /// Its 95 % interval, which is symmetric in the logarithm.
+    pub fn ratio_ci95(&self) -> [f64; 2] {
+        self.log10_ratio.ci95.map(|limit| 10_f64.powf(limit))
+    }
+
+    /// Mean over people of the measurement variance of a person's mean, log10 units squared.
+    pub fn measurement_variance(&self) -> f64 {
+        let sum: f64 = self.people.iter().map(|person| person.measurement_variance).sum();
+        sum / self.people.len() as f64
+    }
+}
+
+/// `step, 100 %`.
+pub(crate) fn series_name(pattern: Pattern, contrast: f64) -> String {
+    format!("{}, {} % contrast", pattern_name(pattern), (contrast * 1000.0).round() / 10.0)
+}
+
+/// The pattern's word in files.
+pub(crate) fn pattern_name(pattern: Pattern) -> &'static str {
+    match pattern {
+        Pattern::Stair => "stair",
+        Pattern::Step => "step",
+    }
+}
+
+fn person_in_series(code: &str, here: &[&ConditionThreshold]) -> Option<PersonInSeries> {
+    let found: Vec<(f64, Threshold)> = here
+        .iter()
+        .filter(|entry| entry.person == code)
+        .filter_map(|entry| entry.threshold.ok().map(|t| (entry.condition.texel_px, t)))
+        .collect();
+    let count = found.len() as f64;
+    let variance: f64 = found.iter().map(|(_, t)| t.standard_error_log10.powi(2)).sum();
+    (!found.is_empty()).then(|| PersonInSeries {
+        person: code.to_owned(),
+        log10_ratio: found.iter().map(|(_, t)| t.log10_ratio).sum::<f64>() / count,
+        measurement_variance: variance / count.powi(2),
+        points: found
+            .iter()
+            .map(|&(texel_px, t)| SizePoint { texel_px, radius_px: t.ratio() * texel_px })
+            .collect(),
+    })
+}
+
+fn origin_line(people: &[PersonInSeries], texels_px: &[f64]) -> Result<OriginLine, Error> {
+    let mean_points: Vec<SizePoint> = texels_px
+        .iter()
+        .filter_map(|&texel_px| {
+            let radii: Vec<f64> = people
+                .iter()
+                .flat_map(|person| &person.points)
+                .filter(|point| point.texel_px == texel_px)
+                .map(|point| point.radius_px)
+                .collect();
+            let mean = radii.iter().sum::<f64>() / radii.len() as f64;
+            (!radii.is_empty()).then_some(SizePoint { texel_px, radius_px: mean })
+        })
+        .collect();
+    let no_line = || Error::CannotFit("no texel size has a radius".to_owned());
+    let slope = line_through_origin(&mean_points).ok_or_else(no_line)?;
+    let complete = people.iter().all(|person| person.points.len() == texels_px.len());
+    let slopes: Vec<f64> = people.iter().filter_map(|p| line_through_origin(&p.points)).collect();
+    let over_people = if complete { MeanOverPeople::of(&slopes).ok() } else { None };
+    Ok(OriginLine { slope, over_people })
+}

@@ -1,0 +1,149 @@
+//! Studies of simulated people: the experiment's own state machine, the real record.
+//!
+//! Person `i` of a population has the threshold `log10 c_i = log10 c + sd z_i` and answers by a Weibull
+//! psychometric function; person, answers and session each have a seed of their own, drawn from the
+//! study's. Equal arguments give equal files: a simulated session has no date and stands at the Unix
+//! epoch.
+
+use std::path::{Path, PathBuf};
+
+use jiff::Timestamp;
+use rayon::prelude::*;
+use scumble_psychophysics::{
+    Event, Experiment, Moment, ObserverParameters, Population, Protocol, SessionHeader,
+    SessionWriter, Software, Stage,
+};
+
+use crate::{
+    Error,
+    people::{Person, Study},
+};
+
+/// Most people of one simulated study: the session folders have four digits.
+const OBSERVERS_MOST: u32 = 9999;
+
+/// A study of simulated people.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simulation {
+    /// The protocol that everyone follows.
+    pub protocol: Protocol,
+    /// Number of people.
+    pub observers: u32,
+    /// Everything random follows from it.
+    pub seed: u64,
+    /// The median person.
+    pub median: ObserverParameters,
+    /// Standard deviation between people, log10 of the ratio.
+    pub between_sd_log10: f64,
+}
+
+impl Simulation {
+    /// Refuses numbers out of range; the error names the option.
+    ///
+    /// # Errors
+    /// No observer or too many, a ratio, deviation, lapse rate or protocol parameter out of range.
+    pub fn check(&self) -> Result<(), Error> {
+        if !(1..=OBSERVERS_MOST).contains(&self.observers) {
+            let value = self.observers.to_string();
+            return Err(Error::Argument { name: "--observers", value, allowed: "1 to 9999" });
+        }
+        let sd = self.between_sd_log10;
+        if !(0.0..=1.0).contains(&sd) {
+            let allowed = "0 to 1, log10 units";
+            return Err(Error::Argument { name: "--between-sd", value: sd.to_string(), allowed });
+        }
+        self.protocol.check()?;
+        self.median.check()?;
+        Ok(())
+    }
+
+    /// Lets person `index` run the whole experiment; `record` gets every event in order.
+    ///
+    /// # Errors
+    /// Those of the experiment and of `record`.
+    pub fn run(
+        &self,
+        index: u32,
+        mut record: impl FnMut(&Event) -> Result<(), Error>,
+    ) -> Result<Experiment, Error> {
+        let observer = self.population().person(index)?;
+        let seed = self.population().session_seed(index);
+        let mut experiment = Experiment::new(self.protocol.clone(), seed)?;
+        while *experiment.stage() != Stage::Finished {
+            match experiment.stage().trial().copied() {
+                Some(trial) => {
+                    let side = observer.answer(&trial);
+                    record(&experiment.answer(side, observer.response_time_secs(&trial))?)?;
+                }
+                None => experiment.proceed()?,
+            }
+        }
+        record(&Event::End(Moment { at: Timestamp::UNIX_EPOCH, notes: Vec::new() }))?;
+        Ok(experiment)
+    }
+
+    /// The study in memory, without files.
+    ///
+    /// # Errors
+    /// As [`Self::check`] and [`Self::run`].
+    pub fn study(&self) -> Result<Study, Error> {
+        self.check()?;
+        let person = |index| {
+            let experiment = self.run(index, |_| Ok(()))?;
+            Ok(Person::of(&code(index), &experiment))
+        };
+        Ok(Study {
+            protocol: self.protocol.clone(),
+            people: (0..self.observers).map(person).collect::<Result<_, Error>>()?,
+            sessions: Vec::new(),
+            notices: Vec::new(),
+        })
+    }
+
+    /// Writes a session directory per person below `out`, and calls `finished` after each.
+    ///
+    /// # Errors
+    /// A session that exists already, before anything is written; the system's refusals.
+    pub fn write(&self, out: &Path, finished: impl Fn() + Sync) -> Result<Vec<PathBuf>, Error> {
+        self.check()?;
+        let directories: Vec<_> = (0..self.observers).map(|index| out.join(code(index))).collect();
+        if let Some(existing) = directories.iter().find(|directory| directory.exists()) {
+            let reason = "exists; allowed is a folder without these sessions".to_owned();
+            return Err(Error::File { path: existing.clone(), reason });
+        }
+        (0..self.observers).into_par_iter().zip(&directories).try_for_each(
+            |(index, directory)| -> Result<(), Error> {
+                let mut writer = SessionWriter::create(directory, &self.header(index)?)?;
+                self.run(index, |event| Ok(writer.append(event)?))?;
+                finished();
+                Ok(())
+            },
+        )?;
+        Ok(directories)
+    }
+
+    fn population(&self) -> Population {
+        Population {
+            median: self.median,
+            between_sd_log10: self.between_sd_log10,
+            seed: self.seed,
+        }
+    }
+
+    fn header(&self, index: u32) -> Result<SessionHeader, Error> {
+        let mut header = SessionHeader::new(
+            &code(index),
+            self.protocol.clone(),
+            self.population().session_seed(index),
+            Timestamp::UNIX_EPOCH,
+            Software::of(env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")),
+        );
+        header.simulated_observer = Some(*self.population().person(index)?.parameters());
+        Ok(header)
+    }
+}
+
+/// Participant code and folder of person `index`.
+fn code(index: u32) -> String {
+    format!("sim-{:04}", index + 1)
+}

@@ -1,0 +1,75 @@
+//! The Weibull psychometric function in log intensity, and its inverse.
+//!
+//! `p(x) = g + (1 - g - l) F(x)` with `F(x) = 1 - exp(-10^(b (x - t)))`.
+//!
+//! `x` intensity in log10 units, `t` location in the same units (where `F = 1 - 1/e`), `b` slope (per decade), `g` guess rate, `l` lapse rate (upper asymptote `1 - l`).
+//! `F` is the probability that the artifact is *seen*; `p` is the probability of a *correct* answer.
+//! Source: Watson and Pelli 1983, Eq. 1, written with the upper asymptote `1 - l`. QUEST's own form mixes with weight `delta`:
+//! `p = delta g + (1 - delta)(g + (1 - g) F)`. That is this function with `l = delta (1 - g)`.
+
+use std::f64::consts::LN_10;
+
+use serde::{Deserialize, Serialize};
+
+/// A Weibull psychometric function.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Weibull {
+    /// Location `t`, log10 units: the intensity at which 63.2 % of the artifacts are seen.
+    pub location: f64,
+    /// Slope `b`, per decade.
+    pub slope: f64,
+    /// Probability of a correct answer without seeing anything.
+    pub guess: f64,
+    /// One minus the upper asymptote.
+    pub lapse: f64,
+}
+
+impl Weibull {
+    /// `10^(b (x - t))`, the exponent of `F`.
+    pub(crate) fn exponent(&self, x: f64) -> f64 {
+        (LN_10 * self.slope * (x - self.location)).exp()
+    }
+
+    /// Probability that the artifact is seen at intensity `x`.
+    pub fn detection(&self, x: f64) -> f64 {
+        -(-self.exponent(x)).exp_m1()
+    }
+
+    /// Probability of a correct answer at intensity `x`.
+    pub fn correct(&self, x: f64) -> f64 {
+        self.guess + (1.0 - self.guess - self.lapse) * self.detection(x)
+    }
+
+    /// Intensity at which the artifact is seen with probability `detection`; `None` outside of the open interval 0..1.
+    pub fn x_at_detection(&self, detection: f64) -> Option<f64> {
+        let inside = detection > 0.0 && detection < 1.0;
+        inside.then(|| self.location + (-(-detection).ln_1p()).log10() / self.slope)
+    }
+
+    /// Intensity at which the answer is correct with probability `probability`; `None` where the function never takes that value.
+    pub fn x_at_correct(&self, probability: f64) -> Option<f64> {
+        self.x_at_detection((probability - self.guess) / (1.0 - self.guess - self.lapse))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const QUEST: Weibull = Weibull { location: 0.0, slope: 3.5, guess: 0.5, lapse: 0.005 };
+
+    #[test]
+    fn the_inverse_returns_the_probability() {
+        for probability in [0.51, 0.6, 0.75, 0.82, 0.99] {
+            let x = QUEST.x_at_correct(probability).unwrap();
+            assert!((QUEST.correct(x) - probability).abs() < 1e-12);
+        }
+        assert_eq!(QUEST.x_at_correct(0.4), None);
+        assert_eq!(QUEST.x_at_correct(0.999), None);
+    }
+
+    #[test]
+    fn the_threshold_of_quest_is_its_closed_form() {
+        assert!((QUEST.x_at_correct(0.82).unwrap() - 0.004839437105186521).abs() < 1e-12, "xThreshold_analytic of the QUEST tables");
+    }
+}
