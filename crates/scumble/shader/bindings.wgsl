@@ -1,0 +1,67 @@
+// What every shadow shader reads: one uniform block for the lights, one for the taps, the maps and their sampler.
+//
+// Spaces: *world* is relative to the origin given to `Shadows`; *light* is that of `scumble_core::Light` with z turned
+// round, so that z is the depth along the light; the *reference plane* is any plane across a directional light and the near plane of a spot; *map depth* is
+// what the map holds, 0 at `depth_near` and 1 at `depth_far`; *texels* count from the corner of the light's viewport.
+// Each struct has a `#[repr(C)]` twin in `src/uniforms.rs`; a test compares offsets and constants.
+
+const SHADOW_LIGHTS_MAX: u32 = 4u;
+const SHADOW_PCF_TAPS: u32 = 25u;
+const SHADOW_BLOCKER_TAPS: u32 = 16u;
+
+const SHADOW_FILTER_HARD: u32 = 0u;
+const SHADOW_FILTER_PCF: u32 = 1u;
+const SHADOW_FILTER_PCSS: u32 = 2u;
+const SHADOW_FILTER_UPLOADED: u32 = 3u;
+
+// The filter, as a pipeline constant for a compiler to fold, or as it was uploaded.
+override shadow_filter: u32 = 3u;
+
+struct ShadowLight {
+    clip_from_world: mat4x4f,
+    light_from_world: mat4x4f,
+    // Size of the viewport, texels.
+    viewport_texels: vec2f,
+    // Texels per world length at the reference plane; y is negative, rows count downwards.
+    texel_from_plane: vec2f,
+    // Light-space depths of map depth 0 and 1, world length.
+    depth_near: f32,
+    depth_far: f32,
+    // 1 for a spot, 0 for a directional light.
+    is_spot: u32,
+    layer: u32,
+    // Tangent of the angular radius of a directional light; radius of a spot's disc, world length.
+    light_size: f32,
+    // Radius of the fixed kernel at the reference plane, world length.
+    radius_world: f32,
+    // Smallest filter radius of PCSS at the reference plane, world length.
+    radius_min_world: f32,
+    // Larger side of a texel at the reference plane, world length.
+    texel_world: f32,
+    // Bias: constant part and factor of the slope in texels, part for rounding in world length.
+    bias_constant_texels: f32,
+    bias_slope_texels: f32,
+    bias_rounding_world: f32,
+    // Largest slope of a receiver against the light that is followed: a tangent.
+    slope_max: f32,
+    // 0 where the light has no map and everything is lit.
+    has_map: u32,
+    filter_kind: u32,
+    padding: vec2u,
+}
+
+struct ShadowLights {
+    lights: array<ShadowLight, SHADOW_LIGHTS_MAX>,
+}
+
+// Points of the unit disc, two a vector: xy is tap 2i, zw is tap 2i + 1.
+// A uniform buffer, never a constant array: indexed by a loop variable that runs up to 20 times slower on llvmpipe.
+struct ShadowTaps {
+    pcf: array<vec4f, 13>,
+    blocker: array<vec4f, 8>,
+}
+
+@group(0) @binding(0) var<uniform> shadow_lights: ShadowLights;
+@group(0) @binding(1) var<uniform> shadow_taps: ShadowTaps;
+@group(0) @binding(2) var shadow_maps: texture_depth_2d_array;
+@group(0) @binding(3) var shadow_sampler: sampler_comparison;

@@ -1,0 +1,51 @@
+// Percentage closer soft shadows (Kreuzer 2017, Eq. 5.8 to 5.11): the kernel's radius from the blockers' mean depth.
+//   spot         r_search = r_light (z_r - z_n) / z_r,  r_penumbra = r_light (z_r - z_b) / z_b,  r_filter = r_penumbra z_n / z_r
+//   directional  r_search = (z_r - z_n) tan(half angle),  r_filter = (z_r - z_b) tan(half angle)
+// z_r receiver, z_b mean blocker, z_n near plane, light-space depths; radii at the reference plane.
+// CPU twin: `scumble_core::filter`.
+
+struct ShadowBlockers {
+    count: u32,
+    // Mean light-space depth; the receiver's where there is none.
+    mean_depth: f32,
+}
+
+fn shadow_search_radius(light: u32, receiver_depth: f32) -> f32 {
+    let size = shadow_lights.lights[light].light_size;
+    let distance = max(receiver_depth - shadow_lights.lights[light].depth_near, 0.0);
+    if shadow_lights.lights[light].is_spot == 1u {
+        return size * distance / receiver_depth;
+    }
+    return size * distance;
+}
+
+fn shadow_filter_radius(light: u32, receiver_depth: f32, blocker_depth: f32) -> f32 {
+    let size = shadow_lights.lights[light].light_size;
+    let distance = max(receiver_depth - blocker_depth, 0.0);
+    if shadow_lights.lights[light].is_spot == 1u {
+        return size * distance / blocker_depth * shadow_lights.lights[light].depth_near / receiver_depth;
+    }
+    return size * distance;
+}
+
+// Map depths in front of the receiver's tangent plane within `radius_plane`, one texel a tap.
+fn shadow_find_blockers(light: u32, receiver: ShadowReceiver, radius_plane: f32, rotation: mat2x2f) -> ShadowBlockers {
+    let viewport = shadow_lights.lights[light].viewport_texels;
+    let layer = shadow_lights.lights[light].layer;
+    var count = 0u;
+    var sum = 0.0;
+    for (var i = 0u; i < SHADOW_BLOCKER_TAPS; i++) {
+        let pair = shadow_taps.blocker[i / 2u];
+        let tap = select(pair.xy, pair.zw, (i & 1u) == 1u);
+        let offset = radius_plane * (rotation * tap);
+        let texel = receiver.texel + offset * shadow_lights.lights[light].texel_from_plane;
+        let place = vec2i(clamp(texel, vec2f(0.0), viewport - 1.0));
+        let depth = textureLoad(shadow_maps, place, layer, 0);
+        let is_inside = all(texel >= vec2f(0.0)) && all(texel < viewport);
+        if is_inside && depth < shadow_depth_at(receiver, offset) {
+            count += 1u;
+            sum += shadow_light_depth(light, depth);
+        }
+    }
+    return ShadowBlockers(count, select(receiver.light_depth, sum / f32(max(count, 1u)), count > 0u));
+}

@@ -1,0 +1,78 @@
+// From a point with a normal to a place in the map and the plane that every tap compares with.
+//
+// The receiver is at (x, y, d) of light space with the normal m; s = (x, y) / d for a spot, 0 for a directional light.
+// Along its tangent plane depth changes by t = -m_xy / (m . (s, 1)) per world length sideways, and over an offset o at the
+// reference plane (depth `near` for a spot) map depth, unlike depth, is linear for both projections:
+//   directional  (d + t . o - near) / (far - near)
+//   spot         far / (far - near) (1 - near / d + t . o / d)
+// so the plane is a map depth and a slope, two operations a tap. The length of t is clamped to `slope_max`.
+// The bias is a length, texel (constant + slope (|t_x| + |t_y|)) and a part for rounding, taken as map depth at the
+// receiver. CPU twin: `scumble_core::ReceiverPlane`, which takes the bias of a spot at each tap.
+
+struct ShadowReceiver {
+    // Place in the viewport, texels.
+    texel: vec2f,
+    // Map depth there, and its change per world length at the reference plane.
+    depth: f32,
+    slope: vec2f,
+    // To subtract from the map depth of every tap.
+    bias: f32,
+    // Light-space depth, world length.
+    light_depth: f32,
+}
+
+// Light-space depth of a map depth.
+fn shadow_light_depth(light: u32, map_depth: f32) -> f32 {
+    let near = shadow_lights.lights[light].depth_near;
+    let far = shadow_lights.lights[light].depth_far;
+    if shadow_lights.lights[light].is_spot == 1u {
+        return near * far / (far - map_depth * (far - near));
+    }
+    return near + map_depth * (far - near);
+}
+
+// -n_xy / along, no longer than `longest`, also where the surface is seen edge-on.
+fn shadow_tangent(n_xy: vec2f, along: f32, longest: f32) -> vec2f {
+    let size = length(n_xy);
+    if size <= longest * abs(along) {
+        return select(-n_xy / along, vec2f(0.0), along == 0.0);
+    }
+    return n_xy * (select(-1.0, 1.0, along < 0.0) * longest / size);
+}
+
+fn shadow_receiver(light: u32, position_world: vec3f, normal_world: vec3f) -> ShadowReceiver {
+    let position = vec4f(position_world, 1.0);
+    let clip = shadow_lights.lights[light].clip_from_world * position;
+    let p = (shadow_lights.lights[light].light_from_world * position).xyz;
+    let m = (shadow_lights.lights[light].light_from_world * vec4f(normal_world, 0.0)).xyz;
+    let near = shadow_lights.lights[light].depth_near;
+    let far = shadow_lights.lights[light].depth_far;
+    let slope_max = shadow_lights.lights[light].slope_max;
+
+    var receiver: ShadowReceiver;
+    let ndc = clip.xyz / clip.w;
+    receiver.texel = (ndc.xy * vec2f(0.5, -0.5) + 0.5) * shadow_lights.lights[light].viewport_texels;
+    receiver.depth = ndc.z;
+    receiver.light_depth = p.z;
+
+    // Tangent plane, and map depth per length: across a texel at the receiver, and per bias.
+    var tangent = shadow_tangent(m.xy, m.z, slope_max);
+    var texel = shadow_lights.lights[light].texel_world;
+    var depth_per_length = 1.0 / (far - near);
+    receiver.slope = tangent * depth_per_length;
+    if shadow_lights.lights[light].is_spot == 1u {
+        tangent = shadow_tangent(m.xy, dot(m, vec3f(p.xy / p.z, 1.0)), slope_max);
+        texel *= p.z / near;
+        receiver.slope = tangent * (far / ((far - near) * p.z));
+        depth_per_length = near * far / ((far - near) * p.z * p.z);
+    }
+    let bias_texels = shadow_lights.lights[light].bias_constant_texels
+        + shadow_lights.lights[light].bias_slope_texels * (abs(tangent.x) + abs(tangent.y));
+    receiver.bias = depth_per_length * (texel * bias_texels + shadow_lights.lights[light].bias_rounding_world);
+    return receiver;
+}
+
+// Map depth to compare with at an offset from the receiver, world length at the reference plane.
+fn shadow_depth_at(receiver: ShadowReceiver, offset: vec2f) -> f32 {
+    return min(receiver.depth + dot(receiver.slope, offset), 1.0) - receiver.bias;
+}

@@ -1,0 +1,55 @@
+// The shader's one call: how much of a light reaches a point.
+
+struct ShadowSample {
+    // Share of the light that arrives, 0 to 1.
+    visibility: f32,
+    // Radius of the filter at the reference plane before it is clamped, world length; 0 where there was none.
+    radius_plane: f32,
+    // Samples that found a blocker: of the search (PCSS), or of the kernel.
+    blockers: u32,
+}
+
+fn shadow_filter_of(light: u32) -> u32 {
+    if shadow_filter == SHADOW_FILTER_UPLOADED {
+        return shadow_lights.lights[light].filter_kind;
+    }
+    return shadow_filter;
+}
+
+fn shadow_sample(light: u32, position_world: vec3f, normal_world: vec3f, frag_coord: vec2f) -> ShadowSample {
+    if light >= SHADOW_LIGHTS_MAX || shadow_lights.lights[light].has_map == 0u {
+        return ShadowSample(1.0, 0.0, 0u);
+    }
+    let receiver = shadow_receiver(light, position_world, normal_world);
+    if shadow_lights.lights[light].is_spot == 1u && !(receiver.light_depth > 0.0) {
+        return ShadowSample(1.0, 0.0, 0u);
+    }
+    let kind = shadow_filter_of(light);
+    if kind == SHADOW_FILTER_HARD {
+        let visibility = shadow_tap_at(light, receiver, vec2f(0.0));
+        return ShadowSample(visibility, 0.0, u32(visibility < 1.0));
+    }
+
+    let rotation = shadow_rotation(vec2u(frag_coord));
+    if kind == SHADOW_FILTER_PCF {
+        let radius = shadow_lights.lights[light].radius_world;
+        let visibility = shadow_pcf(light, receiver, radius, rotation);
+        return ShadowSample(visibility, radius, u32(round((1.0 - visibility) * f32(SHADOW_PCF_TAPS))));
+    }
+
+    let radius_min = shadow_lights.lights[light].radius_min_world;
+    let search = max(shadow_search_radius(light, receiver.light_depth), radius_min);
+    let blockers = shadow_find_blockers(light, receiver, search, rotation);
+    if blockers.count == 0u {
+        return ShadowSample(1.0, 0.0, 0u);
+    }
+    let radius = shadow_filter_radius(light, receiver.light_depth, blockers.mean_depth);
+    let visibility = shadow_pcf(light, receiver, max(radius, radius_min), rotation);
+    return ShadowSample(visibility, radius, blockers.count);
+}
+
+// Share of a light that reaches `position_world` (relative to the origin given to `Shadows`) on a surface with the
+// geometric normal `normal_world`; `frag_coord` turns the kernel per pixel.
+fn shadow_visibility(light: u32, position_world: vec3f, normal_world: vec3f, frag_coord: vec2f) -> f32 {
+    return shadow_sample(light, position_world, normal_world, frag_coord).visibility;
+}

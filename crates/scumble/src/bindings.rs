@@ -1,0 +1,100 @@
+//! Bind group and layout of everything that `shadow_visibility` reads, and the buffers behind it.
+
+use scumble_core::Taps;
+
+use crate::maps::Maps;
+use crate::uniforms::{BLOCKER_TAPS, LightsUniform, PCF_TAPS, TapsUniform};
+
+/// Uniform buffers, sampler, layout and group.
+#[derive(Debug)]
+pub struct Bindings {
+    lights: wgpu::Buffer,
+    layout: wgpu::BindGroupLayout,
+    group: wgpu::BindGroup,
+}
+
+impl Bindings {
+    /// Buffers created here.
+    pub const BUFFERS: usize = 2;
+
+    /// Creates all, with the method's taps and no lights.
+    pub fn new(device: &wgpu::Device, maps: &Maps) -> Self {
+        // Uniforms: the lights start as zeros, which is "no map, all lit".
+        let lights = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("scumble lights"),
+            size: size_of::<LightsUniform>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let taps = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("scumble taps"),
+            size: size_of::<TapsUniform>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM,
+            mapped_at_creation: true,
+        });
+        let points = Taps::new(BLOCKER_TAPS as usize, PCF_TAPS as usize);
+        if let Ok(mut view) = taps.get_mapped_range_mut(..) {
+            view.copy_from_slice(bytemuck::bytes_of(&TapsUniform::new(&points.filter, &points.blocker)));
+        }
+        taps.unmap();
+
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("scumble comparison"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            compare: Some(wgpu::CompareFunction::LessEqual),
+            ..Default::default()
+        });
+        let layout = layout(device);
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("scumble"),
+            layout: &layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: lights.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: taps.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(maps.sampled()) },
+                wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(&sampler) },
+            ],
+        });
+        Self { lights, layout, group }
+    }
+
+    /// For pipelines that shade.
+    pub fn layout(&self) -> &wgpu::BindGroupLayout {
+        &self.layout
+    }
+
+    /// For passes that shade.
+    pub fn group(&self) -> &wgpu::BindGroup {
+        &self.group
+    }
+
+    /// Tells the shaders of a plan with the queue's next submission.
+    pub fn write(&self, queue: &wgpu::Queue, lights: &LightsUniform) {
+        queue.write_buffer(&self.lights, 0, bytemuck::bytes_of(lights));
+    }
+}
+
+fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        ty,
+        count: None,
+    };
+    let uniform = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let maps = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Depth,
+        view_dimension: wgpu::TextureViewDimension::D2Array,
+        multisampled: false,
+    };
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("scumble"),
+        entries: &[entry(0, uniform), entry(1, uniform), entry(2, maps), entry(3, sampler)],
+    })
+}

@@ -1,0 +1,75 @@
+//! What can be wrong with what a caller passes in. Each message says what was found and what is allowed.
+
+use crate::uniforms::LIGHTS_MAX;
+
+/// Why a call of this crate was refused.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The fit, the settings or the sizes were refused by the method itself.
+    #[error(transparent)]
+    Method(#[from] scumble_core::Error),
+    /// The cap does not fit the device.
+    #[error(
+        "the cap is {cap} texels a side, the device allows 1 to {device_limit} (`Limits::max_texture_dimension_2d`)"
+    )]
+    CapOutsideDevice {
+        /// What the settings say.
+        cap: u32,
+        /// What the device allows.
+        device_limit: u32,
+    },
+    /// The number of maps is not possible.
+    #[error("{found} lights with maps were asked for; 1 to {LIGHTS_MAX} are possible")]
+    MapCount {
+        /// What was asked for.
+        found: u32,
+    },
+    /// The number of maps cannot change.
+    #[error("the options ask for {found} maps, but {allocated} were allocated; the number of maps is fixed at creation")]
+    MapsAllocated {
+        /// What was asked for.
+        found: u32,
+        /// Layers of the texture.
+        allocated: u32,
+    },
+    /// More lights than maps were allocated for.
+    #[error("the plan has {found} lights, but maps were allocated for {allocated} (`Options::maps`)")]
+    TooManyLights {
+        /// Lights in the call.
+        found: usize,
+        /// Layers of the texture.
+        allocated: u32,
+    },
+    /// A fixed size that is no size of a map.
+    #[error("a fixed map size of {found:?} texels was asked for; each side may be 1 to the cap, {cap}")]
+    FixedSize {
+        /// What was asked for.
+        found: [u32; 2],
+        /// Largest side.
+        cap: u32,
+    },
+    /// An origin that is no place.
+    #[error("the origin is ({}, {}, {}); three finite numbers are allowed", .0.x, .0.y, .0.z)]
+    Origin(glam::DVec3),
+    /// A stride of zero measures nothing.
+    #[error("the measuring stride is 0; it is 1 (every pixel) or more")]
+    Stride,
+    /// The device lacks compute shaders or the storage the demand pass needs.
+    #[error("measuring needs compute shaders with {needed} storage buffer a stage; this device has {found}")]
+    NoCompute {
+        /// Storage buffers needed.
+        needed: u32,
+        /// Storage buffers a stage of the device.
+        found: u32,
+    },
+    /// The prepass cannot be read.
+    #[error(
+        "the depth prepass is {found}; measuring needs a single-sample 2D depth texture with TEXTURE_BINDING usage, \
+         for example Depth32Float"
+    )]
+    Prepass {
+        /// What was passed.
+        found: String,
+    },
+}

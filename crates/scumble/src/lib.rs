@@ -1,0 +1,55 @@
+//! Adaptive soft shadow maps for wgpu renderers: the smallest map whose texels nobody sees under the filter.
+//!
+//! The method is in [`scumble_core`]; this crate runs it. A frame:
+//!
+//! 1. [`Shadows::read_demand`] takes what the GPU measured some frames ago, if anything has arrived.
+//! 2. [`Shadows::plan`] turns camera, scene bounds and lights into [`View`]s: matrix, viewport, layer of each map.
+//! 3. [`Shadows::upload`] tells the shaders.
+//! 4. [`Shadows::begin`] gives a depth-only pass for each view; the caller draws its casters.
+//! 5. [`Shadows::measure`], optional, looks at a depth prepass and finds the smallest radius on screen (Kreuzer 2017,
+//!    Eq. 5.12).
+//! 6. The caller shades: [`shadow_wgsl`] before its shader, [`Shadows::bind_group`] bound, `shadow_visibility` called.
+//!
+//! ```no_run
+//! # use scumble::*;
+//! # fn frame(device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, prepass: &wgpu::TextureView,
+//! #     camera: Camera, bounds: Aabb, lights: Vec<Light>) -> Result<(), Error> {
+//! # fn draw_casters(_: &mut wgpu::RenderPass<'_>, _: glam::Mat4) {}
+//! let mut shadows = Shadows::new(device, Settings { cap: 2048, ..Settings::default() })?;
+//! // Each frame:
+//! shadows.read_demand();
+//! let plan = shadows.plan(&camera, &bounds, &lights)?;
+//! shadows.upload(queue, &plan);
+//! for view in plan.views() {
+//!     draw_casters(&mut shadows.begin(encoder, view), view.clip_from_world);
+//! }
+//! shadows.measure(queue, encoder, prepass, &camera)?;
+//! # Ok(()) }
+//! ```
+//!
+//! The caller keeps device, queue, encoder, scene and camera. This crate never submits, never waits, and allocates at
+//! creation only (and once at the first `measure`). It has one map a light: no cascades, no cube maps.
+
+mod bindings;
+mod counters;
+mod error;
+mod maps;
+mod measure;
+mod options;
+mod plan;
+mod readback;
+mod shaders;
+mod shadows;
+pub mod uniforms;
+mod view;
+
+pub use counters::Counters;
+pub use error::Error;
+pub use measure::NOTHING as MEASURE_NOTHING;
+pub use options::{Options, SizeChoice};
+pub use plan::filter_constant;
+pub use scumble_core::{self, Aabb, Camera, Filter, Light, Settings};
+pub use shaders::{CLEAR_WGSL, FILTER_OVERRIDE, measure_wgsl, shadow_wgsl};
+pub use shadows::Shadows;
+pub use uniforms::{BLOCKER_TAPS, LIGHTS_MAX, PCF_TAPS};
+pub use view::{Plan, View};

@@ -1,0 +1,297 @@
+//! The demand pass on the GPU: smallest filter radius on screen by light, and its way back.
+//!
+//! Steps of one call: the minimum is set to infinity, `shader/measure.wgsl` lowers it over the depth prepass, the result
+//! is copied into the [readback ring](crate::readback). Nothing is submitted and nothing waits.
+
+use glam::DVec3;
+use scumble_core::{Camera, Settings};
+
+use crate::error::Error;
+use crate::readback::Ring;
+use crate::uniforms::{LIGHTS_MAX, MeasureUniform};
+
+/// What the shader leaves where no fragment had a penumbra: the bits of infinity.
+pub const NOTHING: u32 = 0x7F80_0000;
+
+/// Side of a work group in measured pixels; the shader's `@workgroup_size`.
+const GROUP_SIDE: u32 = 8;
+
+/// Storage buffers a stage that the pass binds.
+const STORAGE_BUFFERS: u32 = 1;
+
+/// Pipeline, buffers and ring of the demand pass.
+#[derive(Debug)]
+pub struct Measure {
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    uniform: wgpu::Buffer,
+    demand: wgpu::Buffer,
+    nothing: wgpu::Buffer,
+    bound: Option<(wgpu::TextureView, wgpu::BindGroup)>,
+    ring: Ring<Scale>,
+}
+
+/// Reference-plane depths of the spots whose radii a measurement holds, 1 for other lights: a radius over its scale does
+/// not depend on the fit at the time.
+pub type Scale = [f64; LIGHTS_MAX as usize];
+
+/// What one measurement is about.
+pub struct Request<'a> {
+    /// The camera of the prepass.
+    pub camera: &'a Camera,
+    /// Origin of the shaders' world space.
+    pub origin_world: DVec3,
+    /// Clamps and relation.
+    pub settings: &'a Settings,
+    /// Every how many pixels one is measured.
+    pub stride: u32,
+    /// Lights in the uniforms.
+    pub light_count: u32,
+    /// Their scales.
+    pub scale: Scale,
+}
+
+/// What a recorded measurement did.
+pub struct Recorded {
+    /// Whether a bind group had to be created.
+    pub rebound: bool,
+    /// Whether the ring had room to bring the result back.
+    pub copied: bool,
+}
+
+impl Measure {
+    /// Creates everything that the pass needs; `shadow_layout` is bind group 0.
+    pub fn new(device: &wgpu::Device, shadow_layout: &wgpu::BindGroupLayout) -> Result<Self, Error> {
+        let found = device.limits().max_storage_buffers_per_shader_stage;
+        if found < STORAGE_BUFFERS || device.limits().max_compute_workgroups_per_dimension == 0 {
+            return Err(Error::NoCompute {
+                needed: STORAGE_BUFFERS,
+                found,
+            });
+        }
+        let layout = bind_group_layout(device);
+        let demand_bytes = u64::from(LIGHTS_MAX) * 4;
+        let buffer = |label, size, usage, mapped_at_creation| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation,
+            })
+        };
+        let nothing = buffer("scumble demand start", demand_bytes, wgpu::BufferUsages::COPY_SRC, true);
+        if let Ok(mut view) = nothing.get_mapped_range_mut(..) {
+            view.copy_from_slice(bytemuck::cast_slice(&[NOTHING; LIGHTS_MAX as usize]));
+        }
+        nothing.unmap();
+        Ok(Self {
+            pipeline: pipeline(device, shadow_layout, &layout),
+            layout,
+            uniform: buffer(
+                "scumble measure",
+                size_of::<MeasureUniform>() as u64,
+                wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                false,
+            ),
+            demand: buffer(
+                "scumble demand",
+                demand_bytes,
+                wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+                false,
+            ),
+            nothing,
+            bound: None,
+            ring: Ring::new(device, demand_bytes),
+        })
+    }
+
+    /// Buffers that live as long as this.
+    pub fn buffer_count(&self) -> usize {
+        3 + self.ring.slot_count()
+    }
+
+    /// Records one measurement.
+    pub fn record(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        shadow_bind_group: &wgpu::BindGroup,
+        prepass: &wgpu::TextureView,
+        request: &Request<'_>,
+    ) -> Result<Recorded, Error> {
+        let size_px = checked_size(prepass)?;
+        if request.stride == 0 {
+            return Err(Error::Stride);
+        }
+        let camera = request.camera.checked()?;
+        queue.write_buffer(
+            &self.uniform,
+            0,
+            bytemuck::bytes_of(&camera_uniform(&camera, size_px, request)),
+        );
+
+        let rebound = self.bind(device, prepass);
+        let Some((_, bind_group)) = &self.bound else {
+            return Ok(Recorded { rebound, copied: false });
+        };
+        encoder.copy_buffer_to_buffer(&self.nothing, 0, &self.demand, 0, self.demand.size());
+        let groups = size_px.map(|side| side.div_ceil(request.stride).div_ceil(GROUP_SIDE));
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("scumble measure"),
+                timestamp_writes: None,
+            });
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, shadow_bind_group, &[]);
+            pass.set_bind_group(1, bind_group, &[]);
+            pass.dispatch_workgroups(groups[0], groups[1], request.light_count);
+        }
+        let copied = self.ring.record(encoder, &self.demand, request.scale);
+        Ok(Recorded { rebound, copied })
+    }
+
+    /// The newest result that has come back, by light: radius over scale; `None` where there was no penumbra.
+    pub fn take(&mut self) -> Option<Vec<Option<f64>>> {
+        let (bytes, scale) = self.ring.take()?;
+        let bits: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
+        Some(
+            bits.iter()
+                .zip(scale)
+                .map(|(&bits, scale)| (bits > 0 && bits < NOTHING).then(|| f64::from(f32::from_bits(bits)) / scale))
+                .collect(),
+        )
+    }
+
+    /// Binds the prepass; true when its bind group had to be created.
+    fn bind(&mut self, device: &wgpu::Device, prepass: &wgpu::TextureView) -> bool {
+        if self.bound.as_ref().is_some_and(|(view, _)| view == prepass) {
+            return false;
+        }
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("scumble measure"),
+            layout: &self.layout,
+            entries: &[
+                wgpu::BindGroupEntry {
+                    binding: 0,
+                    resource: self.uniform.as_entire_binding(),
+                },
+                wgpu::BindGroupEntry {
+                    binding: 1,
+                    resource: wgpu::BindingResource::TextureView(prepass),
+                },
+                wgpu::BindGroupEntry {
+                    binding: 2,
+                    resource: self.demand.as_entire_binding(),
+                },
+            ],
+        });
+        self.bound = Some((prepass.clone(), group));
+        true
+    }
+}
+
+/// Refuses a prepass that the pass cannot bind; returns its size.
+fn checked_size(prepass: &wgpu::TextureView) -> Result<[u32; 2], Error> {
+    let texture = prepass.texture();
+    let is_readable = texture.format().has_depth_aspect()
+        && texture.sample_count() == 1
+        && texture.dimension() == wgpu::TextureDimension::D2
+        && texture.mip_level_count() == 1
+        && texture.depth_or_array_layers() == 1
+        && texture.usage().contains(wgpu::TextureUsages::TEXTURE_BINDING);
+    if is_readable {
+        return Ok([texture.width(), texture.height()]);
+    }
+    Err(Error::Prepass {
+        found: format!(
+            "{:?} with {} samples, {} mip levels, {} layers and usage {:?}",
+            texture.format(),
+            texture.sample_count(),
+            texture.mip_level_count(),
+            texture.depth_or_array_layers(),
+            texture.usage()
+        ),
+    })
+}
+
+/// Rays and depth of the prepass's pixels. The projection gives ndc depth = A + B / view depth.
+fn camera_uniform(camera: &Camera, [width_px, height_px]: [u32; 2], request: &Request<'_>) -> MeasureUniform {
+    let forward = camera.forward();
+    let right = forward.cross(camera.up).normalize();
+    let up = right.cross(forward);
+    let height = camera.height_at_unit_distance();
+    let ray_x = right * (height * camera.aspect / f64::from(width_px));
+    let ray_y = -up * (height / f64::from(height_px));
+    let corner = forward - 0.5 * (f64::from(width_px) * ray_x + f64::from(height_px) * ray_y);
+    let projection = camera.clip_from_view();
+    let settings = request.settings;
+    let ratio = settings.relation.ratio();
+    MeasureUniform {
+        eye: (camera.eye - request.origin_world).as_vec3().to_array(),
+        depth_numerator: (-projection.w_axis.z) as f32,
+        ray_corner: corner.as_vec3().to_array(),
+        depth_offset: (-projection.z_axis.z) as f32,
+        ray_x: ray_x.as_vec3().to_array(),
+        stride: request.stride,
+        ray_y: ray_y.as_vec3().to_array(),
+        radius_per_footprint: (ratio * settings.footprint_kappa) as f32,
+        forward: forward.as_vec3().to_array(),
+        radius_floor_world: settings.demand_radius_world(0.0, 0.0) as f32,
+        pixel_at_unit_distance: (height / f64::from(height_px)) as f32,
+        padding: [0.0; 3],
+    }
+}
+
+fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty,
+        count: None,
+    };
+    let buffer = |ty| wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("scumble measure"),
+        entries: &[
+            entry(0, buffer(wgpu::BufferBindingType::Uniform)),
+            entry(
+                1,
+                wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Depth,
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+            ),
+            entry(2, buffer(wgpu::BufferBindingType::Storage { read_only: false })),
+        ],
+    })
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    shadow_layout: &wgpu::BindGroupLayout,
+    layout: &wgpu::BindGroupLayout,
+) -> wgpu::ComputePipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("scumble measure"),
+        source: wgpu::ShaderSource::Wgsl(crate::shaders::measure_wgsl().into()),
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("scumble measure"),
+        bind_group_layouts: &[Some(shadow_layout), Some(layout)],
+        immediate_size: 0,
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some("scumble measure"),
+        layout: Some(&layout),
+        module: &module,
+        entry_point: Some("measure_demand"),
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
+    })
+}

@@ -1,0 +1,70 @@
+//! What a renderer chooses beside the method's settings: filter, sizes, number of maps, origin.
+
+use glam::DVec3;
+use scumble_core::Filter;
+
+use crate::error::Error;
+use crate::uniforms::LIGHTS_MAX;
+
+/// How the size of a map is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum SizeChoice {
+    /// From the filter's radius by the relation, between the settings' floor and cap.
+    #[default]
+    Adaptive,
+    /// These texels, whatever the filter: width and height of the viewport.
+    Fixed([u32; 2]),
+}
+
+/// Choices of one [`Shadows`](crate::Shadows). All but `maps` may change between frames.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// How visibility is filtered, for every light.
+    pub filter: Filter,
+    /// How sizes are found.
+    pub size: SizeChoice,
+    /// Whether maps are fitted to what the camera can see (Kreuzer 2017, 3.4.2); else they cover the scene.
+    pub fitted: bool,
+    /// Layers of the texture: most lights of a plan, 1 to [`LIGHTS_MAX`].
+    pub maps: u32,
+    /// Origin of the world space that shaders and vertex buffers use, in world coordinates. Put it near the camera or the
+    /// scene where coordinates are large: what reaches the GPU is relative to it, in f32.
+    pub origin_world: DVec3,
+    /// Every how many pixels, along x and along y, `measure` looks at one. 4 costs a twelfth of 1.
+    pub measure_stride: u32,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            filter: Filter::Pcss,
+            size: SizeChoice::Adaptive,
+            fitted: true,
+            maps: 1,
+            origin_world: DVec3::ZERO,
+            measure_stride: 1,
+        }
+    }
+}
+
+impl Options {
+    /// Refuses what cannot be done below `cap` texels.
+    pub(crate) fn checked(&self, cap: u32) -> Result<Self, Error> {
+        self.filter.checked()?;
+        if let SizeChoice::Fixed(found) = self.size
+            && found.iter().any(|side| !(1..=cap).contains(side))
+        {
+            return Err(Error::FixedSize { found, cap });
+        }
+        if !(1..=LIGHTS_MAX).contains(&self.maps) {
+            return Err(Error::MapCount { found: self.maps });
+        }
+        if self.measure_stride == 0 {
+            return Err(Error::Stride);
+        }
+        if !self.origin_world.is_finite() {
+            return Err(Error::Origin(self.origin_world));
+        }
+        Ok(self.clone())
+    }
+}

@@ -1,0 +1,37 @@
+//! The shaders' parts and how they are put together: plain text, no preprocessor.
+
+const BINDINGS: &str = include_str!("../shader/bindings.wgsl");
+const ROTATION: &str = include_str!("../shader/rotation.wgsl");
+const RECEIVER: &str = include_str!("../shader/receiver.wgsl");
+const PCF: &str = include_str!("../shader/pcf.wgsl");
+const PCSS: &str = include_str!("../shader/pcss.wgsl");
+const VISIBILITY: &str = include_str!("../shader/visibility.wgsl");
+const MEASURE: &str = include_str!("../shader/measure.wgsl");
+
+/// The pass that clears a viewport.
+pub const CLEAR_WGSL: &str = include_str!("../shader/clear.wgsl");
+
+/// Parts of `shadow_visibility`, in the order in which they are joined.
+const PARTS: [&str; 6] = [BINDINGS, ROTATION, RECEIVER, PCF, PCSS, VISIBILITY];
+
+/// The pipeline constant that fixes the filter at compile time, so that the branches of the others go away:
+/// `"shadow_filter"` with [`filter_constant`](crate::filter_constant)'s value. Left out, the filter is the uploaded one.
+pub const FILTER_OVERRIDE: &str = "shadow_filter";
+
+/// WGSL to put before a shader that shades: it declares the bindings of [`Shadows::bind_group`](crate::Shadows::bind_group)
+/// in bind group `group` and gives
+/// `fn shadow_visibility(light: u32, position_world: vec3f, normal_world: vec3f, frag_coord: vec2f) -> f32`,
+/// the share of light number `light` of the plan that arrives: 0 to 1.
+///
+/// `position_world` is relative to the origin of the options, `normal_world` is the geometric normal, of unit length, and
+/// `frag_coord` the pixel. All names start with `shadow_`, `Shadow` or `SHADOW_`.
+pub fn shadow_wgsl(group: u32) -> String {
+    PARTS
+        .join("\n")
+        .replace("@group(0)", &format!("@group({group})"))
+}
+
+/// The demand pass, for tests that look at it.
+pub fn measure_wgsl() -> String {
+    [&shadow_wgsl(0), MEASURE].join("\n")
+}

@@ -1,0 +1,277 @@
+//! The object that a renderer keeps: maps, bindings, sizes and the demand pass of all its shadowed lights.
+
+use scumble_core::{Aabb, Camera, Filter, Light, Settings, SizePolicy};
+
+use crate::bindings::Bindings;
+use crate::counters::Counters;
+use crate::error::Error;
+use crate::maps::{MAP_FORMAT, Maps, depth_state};
+use crate::measure::{Measure, Request, Scale};
+use crate::options::Options;
+use crate::plan::{LightState, measure_scale, plan};
+use crate::uniforms::{BLOCKER_TAPS, LIGHTS_MAX, PCF_TAPS};
+use crate::view::{Plan, View};
+
+/// Adaptive shadow maps of one renderer. The steps of a frame are at the head of the crate.
+#[derive(Debug)]
+pub struct Shadows {
+    device: wgpu::Device,
+    settings: Settings,
+    options: Options,
+    maps: Maps,
+    bindings: Bindings,
+    measure: Option<Measure>,
+    states: Vec<LightState>,
+    uploaded: Uploaded,
+    counters: Counters,
+}
+
+/// What the shaders were told last.
+#[derive(Debug)]
+struct Uploaded {
+    lights: u32,
+    scale: Scale,
+}
+
+impl Shadows {
+    /// Allocates one map at the settings' cap, with default [`Options`].
+    ///
+    /// # Errors
+    /// As [`Shadows::with_options`].
+    pub fn new(device: &wgpu::Device, settings: Settings) -> Result<Self, Error> {
+        Self::with_options(device, settings, Options::default())
+    }
+
+    /// Allocates `options.maps` maps at the settings' cap, 4 bytes a texel: all the memory this will ever take.
+    ///
+    /// # Errors
+    /// Settings or options out of range, and a cap above the device's limit.
+    pub fn with_options(device: &wgpu::Device, settings: Settings, options: Options) -> Result<Self, Error> {
+        let settings = settings.checked()?;
+        let device_limit = device.limits().max_texture_dimension_2d;
+        if settings.cap > device_limit {
+            return Err(Error::CapOutsideDevice {
+                cap: settings.cap,
+                device_limit,
+            });
+        }
+        let options = options.checked(settings.cap)?;
+        let maps = Maps::new(device, settings.cap, options.maps);
+        let bindings = Bindings::new(device, &maps);
+        let state = LightState {
+            policy: SizePolicy::new(&settings)?,
+            measured: None,
+        };
+        let counters = Counters {
+            allocations: 2 + Bindings::BUFFERS as u64,
+            map_bytes: maps.bytes(),
+            ..Counters::default()
+        };
+        Ok(Self {
+            device: device.clone(),
+            states: vec![state; options.maps as usize],
+            settings,
+            options,
+            maps,
+            bindings,
+            measure: None,
+            uploaded: Uploaded {
+                lights: 0,
+                scale: [1.0; LIGHTS_MAX as usize],
+            },
+            counters,
+        })
+    }
+
+    /// The settings given.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The options in force.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Changes the options from the next plan on. Nothing is allocated. A different filter forgets what was measured.
+    ///
+    /// # Errors
+    /// Options out of range, and another number of maps than were allocated.
+    pub fn set_options(&mut self, options: Options) -> Result<(), Error> {
+        let options = options.checked(self.settings.cap)?;
+        if options.maps != self.options.maps {
+            return Err(Error::MapsAllocated {
+                found: options.maps,
+                allocated: self.options.maps,
+            });
+        }
+        if options.filter != self.options.filter {
+            for state in &mut self.states {
+                state.measured = None;
+            }
+        }
+        self.options = options;
+        Ok(())
+    }
+
+    /// The maps that a frame needs. Pure: nothing changes until [`Shadows::upload`].
+    ///
+    /// # Errors
+    /// A camera, scene or light out of range, and more lights than `options.maps`.
+    pub fn plan(&self, camera: &Camera, scene: &Aabb, lights: &[Light]) -> Result<Plan, Error> {
+        plan(&self.settings, &self.options, &self.states, camera, scene, lights)
+    }
+
+    /// Makes a plan the one that the shaders see from the queue's next submission on. Once a frame.
+    pub fn upload(&mut self, queue: &wgpu::Queue, plan: &Plan) {
+        self.bindings.write(queue, &plan.uniform);
+        for (state, policy) in self.states.iter_mut().zip(&plan.policies) {
+            state.policy.clone_from(policy);
+        }
+        self.uploaded = Uploaded {
+            lights: plan.views.iter().map(|view| view.light + 1).max().unwrap_or(0),
+            scale: [1.0; LIGHTS_MAX as usize],
+        };
+        for view in &plan.views {
+            self.uploaded.scale[view.light as usize] = measure_scale(&view.fit);
+        }
+        self.counters.texels = plan.texels();
+        self.counters.taps_per_pixel = match self.options.filter {
+            Filter::Hard => 1,
+            Filter::Pcf { .. } => PCF_TAPS,
+            Filter::Pcss => BLOCKER_TAPS + PCF_TAPS,
+        };
+    }
+
+    /// Begins the depth-only pass of a view, with viewport and scissor set and that part of the map cleared. Draw the
+    /// casters with a pipeline of [`Shadows::depth_stencil_state`] and no colour targets.
+    pub fn begin<'encoder>(
+        &mut self,
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        view: &View,
+    ) -> wgpu::RenderPass<'encoder> {
+        self.counters.map_passes += 1;
+        self.maps.begin(encoder, view)
+    }
+
+    /// Depth state of the casters' pipelines. No depth bias is needed: the receivers carry it.
+    #[must_use]
+    pub fn depth_stencil_state(&self) -> wgpu::DepthStencilState {
+        depth_state(wgpu::CompareFunction::Less)
+    }
+
+    /// Format of the maps.
+    #[must_use]
+    pub fn format(&self) -> wgpu::TextureFormat {
+        MAP_FORMAT
+    }
+
+    /// What to put into `PrimitiveState::unclipped_depth` of the casters' pipelines: true where the device was created
+    /// with `Features::DEPTH_CLIP_CONTROL`, so that casters in front of a spot's near plane keep their shadow.
+    #[must_use]
+    pub fn unclipped_depth(&self) -> bool {
+        self.device.features().contains(wgpu::Features::DEPTH_CLIP_CONTROL)
+    }
+
+    /// What `shadow_visibility` reads; for the group number given to [`shadow_wgsl`](crate::shadow_wgsl). The same object
+    /// for good.
+    #[must_use]
+    pub fn bind_group(&self) -> &wgpu::BindGroup {
+        self.bindings.group()
+    }
+
+    /// Layout of [`Shadows::bind_group`], for fragment and compute stages.
+    #[must_use]
+    pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
+        self.bindings.layout()
+    }
+
+    /// The map texture, Depth32Float, a layer a light: for pictures of it.
+    #[must_use]
+    pub fn map_texture(&self) -> &wgpu::Texture {
+        self.maps.texture()
+    }
+
+    /// Records the demand pass: the smallest filter radius that the pixels of a depth prepass need, by light, with the
+    /// maps and matrices uploaded last. Call it after the maps are drawn, or before `plan` for those of the last frame.
+    /// The result comes back frames later; see [`Shadows::read_demand`]. One call a submission.
+    ///
+    /// `prepass` is a view of the whole of a single-sample depth texture drawn with `camera.clip_from_world()`, cleared to 1.
+    ///
+    /// # Errors
+    /// A prepass that cannot be read, a camera out of range, a device without compute shaders.
+    pub fn measure(
+        &mut self,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        prepass: &wgpu::TextureView,
+        camera: &Camera,
+    ) -> Result<(), Error> {
+        let measure = match &mut self.measure {
+            Some(measure) => measure,
+            None => {
+                let created = Measure::new(&self.device, self.bindings.layout())?;
+                self.counters.allocations += created.buffer_count() as u64;
+                self.measure.insert(created)
+            }
+        };
+        if self.uploaded.lights == 0 {
+            return Ok(());
+        }
+        let request = Request {
+            camera,
+            origin_world: self.options.origin_world,
+            settings: &self.settings,
+            stride: self.options.measure_stride,
+            light_count: self.uploaded.lights,
+            scale: self.uploaded.scale,
+        };
+        let recorded = measure.record(&self.device, queue, encoder, self.bindings.group(), prepass, &request)?;
+        self.counters.measure_passes += 1;
+        self.counters.allocations += u64::from(recorded.rebound);
+        self.counters.readbacks_skipped += u64::from(!recorded.copied);
+        Ok(())
+    }
+
+    /// Takes the newest measurement that has come back, for the plans from here on; never waits. Results arrive while the
+    /// caller submits or polls the device. Returns whether there was one. Until the first, sizes come from bounds.
+    pub fn read_demand(&mut self) -> bool {
+        let Some(radii) = self.measure.as_mut().and_then(Measure::take) else { return false };
+        for (state, radius) in self.states.iter_mut().zip(radii) {
+            state.measured = Some(radius);
+        }
+        self.counters.readbacks_taken += 1;
+        true
+    }
+
+    /// The newest measurement of a light in use, in metres at the reference plane of `view`: `None` before the first,
+    /// `Some(None)` where no fragment had a penumbra.
+    #[must_use]
+    pub fn measured_radius_world(&self, view: &View) -> Option<Option<f64>> {
+        let measured = self.states.get(view.light as usize)?.measured?;
+        Some(measured.map(|radius| radius * measure_scale(&view.fit)))
+    }
+
+    /// Forgets sizes and measurements, as after a cut.
+    ///
+    /// # Errors
+    /// None that creation has not found.
+    pub fn reset(&mut self) -> Result<(), Error> {
+        let policy = SizePolicy::new(&self.settings)?;
+        for state in &mut self.states {
+            *state = LightState {
+                policy: policy.clone(),
+                measured: None,
+            };
+        }
+        Ok(())
+    }
+
+    /// What was done so far.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+}

@@ -1,0 +1,124 @@
+//! The Rust twins of the structs in `shader/bindings.wgsl` and `shader/measure.wgsl`.
+//!
+//! Field order, offsets and constants are those of the shaders; `tests/shaders.rs` compares them with naga's layouts.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Lights that one set of uniforms holds; `SHADOW_LIGHTS_MAX` of the shaders.
+pub const LIGHTS_MAX: u32 = 4;
+/// Taps of the filter kernel (Kreuzer 2017, 5.1.3); `SHADOW_PCF_TAPS` of the shaders.
+pub const PCF_TAPS: u32 = 25;
+/// Taps of the blocker search; `SHADOW_BLOCKER_TAPS` of the shaders.
+pub const BLOCKER_TAPS: u32 = 16;
+
+/// One light as the shaders see it. Spaces and units: head of `shader/bindings.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct LightUniform {
+    /// Clip space of the map from world relative to the origin, by columns.
+    pub clip_from_world: [[f32; 4]; 4],
+    /// Light space from world relative to the origin, by columns; z is the depth along the light.
+    pub light_from_world: [[f32; 4]; 4],
+    /// Size of the viewport in texels.
+    pub viewport_texels: [f32; 2],
+    /// Texels per world length at the reference plane; y negative.
+    pub texel_from_plane: [f32; 2],
+    /// Light-space depth of map depth 0.
+    pub depth_near: f32,
+    /// Light-space depth of map depth 1.
+    pub depth_far: f32,
+    /// 1 for a spot, 0 for a directional light.
+    pub is_spot: u32,
+    /// Layer of the map texture.
+    pub layer: u32,
+    /// Tangent of the half angle (directional) or disc radius in world length (spot).
+    pub light_size: f32,
+    /// Radius of the fixed kernel at the reference plane, world length.
+    pub radius_world: f32,
+    /// Smallest PCSS filter radius at the reference plane, world length.
+    pub radius_min_world: f32,
+    /// Larger side of a texel at the reference plane, world length.
+    pub texel_world: f32,
+    /// Constant part of the bias in texels.
+    pub bias_constant_texels: f32,
+    /// Factor of the slope in the bias, texels.
+    pub bias_slope_texels: f32,
+    /// Part of the bias for rounding, world length.
+    pub bias_rounding_world: f32,
+    /// Largest receiver slope that is followed, a tangent.
+    pub slope_max: f32,
+    /// 0 where the light has no map and everything is lit.
+    pub has_map: u32,
+    /// `SHADOW_FILTER_…` of the shaders.
+    pub filter_kind: u32,
+    /// Unused.
+    pub padding: [u32; 2],
+}
+
+/// All lights.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct LightsUniform {
+    /// By light, in the order given to `plan`.
+    pub lights: [LightUniform; LIGHTS_MAX as usize],
+}
+
+/// Taps in the unit disc, two a vector; the last vector's second half is unused where the count is odd.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct TapsUniform {
+    /// Taps of the filter.
+    pub pcf: [[f32; 4]; PCF_TAPS.div_ceil(2) as usize],
+    /// Taps of the blocker search.
+    pub blocker: [[f32; 4]; BLOCKER_TAPS.div_ceil(2) as usize],
+}
+
+impl TapsUniform {
+    /// Packs points of the unit disc; missing ones stay at the centre, surplus ones are left out.
+    pub fn new(pcf: &[glam::DVec2], blocker: &[glam::DVec2]) -> Self {
+        let mut taps = Self::zeroed();
+        pack(&mut taps.pcf, pcf);
+        pack(&mut taps.blocker, blocker);
+        taps
+    }
+}
+
+fn pack(vectors: &mut [[f32; 4]], points: &[glam::DVec2]) {
+    for (place, point) in vectors
+        .iter_mut()
+        .flat_map(|v| v.chunks_exact_mut(2))
+        .zip(points)
+    {
+        place.copy_from_slice(&point.as_vec2().to_array());
+    }
+}
+
+/// The camera of the demand pass. Rays: `eye + view_depth * (ray_corner + x ray_x + y ray_y)` in pixels.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct MeasureUniform {
+    /// Relative to the origin.
+    pub eye: [f32; 3],
+    /// View depth = `depth_numerator / (depth_offset - depth of the prepass)`.
+    pub depth_numerator: f32,
+    /// Direction of the ray through pixel corner (0, 0), one unit deep.
+    pub ray_corner: [f32; 3],
+    /// See `depth_numerator`.
+    pub depth_offset: f32,
+    /// Change of the direction per pixel to the right.
+    pub ray_x: [f32; 3],
+    /// Every how many pixels, along x and y, one is measured.
+    pub stride: u32,
+    /// Change of the direction per pixel down.
+    pub ray_y: [f32; 3],
+    /// Radius that one pixel of footprint asks for, in footprints: ratio times kappa.
+    pub radius_per_footprint: f32,
+    /// Direction of view.
+    pub forward: [f32; 3],
+    /// Smallest radius written, world length at the reference plane.
+    pub radius_floor_world: f32,
+    /// Size of a pixel at distance 1.
+    pub pixel_at_unit_distance: f32,
+    /// Unused.
+    pub padding: [f32; 3],
+}

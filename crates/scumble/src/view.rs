@@ -1,0 +1,75 @@
+//! One map of a frame, and the plan that holds them all: what to draw, where, and how large.
+
+use glam::{DVec2, Mat4};
+use scumble_core::{Fit, Size, SizePolicy};
+
+use crate::uniforms::LightsUniform;
+
+/// One map to draw this frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// Number of the light in the call of `plan`, and of `shadow_visibility`.
+    pub light: u32,
+    /// Layer of the map texture.
+    pub layer: u32,
+    /// Size of the viewport, whose corner is texel (0, 0).
+    pub size_texels: [u32; 2],
+    /// What the size achieves.
+    pub size: Size,
+    /// The light's clip space from world space relative to `Options::origin_world`: for the casters' vertices.
+    pub clip_from_world: Mat4,
+    /// The fit, border for the taps included.
+    pub fit: Fit,
+    /// Smallest filter radius that PCSS uses, in metres at the reference plane.
+    pub radius_min_world: f64,
+}
+
+impl View {
+    /// Width and height of a texel at the reference plane, in metres.
+    #[must_use]
+    pub fn texel_world(&self) -> DVec2 {
+        let [width, height] = self.size_texels;
+        self.fit.extent_world / DVec2::new(f64::from(width), f64::from(height))
+    }
+
+    /// Texels of the viewport.
+    #[must_use]
+    pub fn texels(&self) -> u64 {
+        u64::from(self.size_texels[0]) * u64::from(self.size_texels[1])
+    }
+}
+
+/// The maps of one frame. It takes effect with [`Shadows::upload`](crate::Shadows::upload).
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub(crate) views: Vec<View>,
+    pub(crate) policies: Vec<SizePolicy>,
+    pub(crate) uniform: LightsUniform,
+}
+
+impl Plan {
+    /// The maps to draw, in the order of the lights. A light that reaches nothing on screen has none; it leaves
+    /// everything lit.
+    #[must_use]
+    pub fn views(&self) -> &[View] {
+        &self.views
+    }
+
+    /// The map of a light, if it has one.
+    #[must_use]
+    pub fn view_of(&self, light: u32) -> Option<&View> {
+        self.views.iter().find(|view| view.light == light)
+    }
+
+    /// Texels of all maps together.
+    #[must_use]
+    pub fn texels(&self) -> u64 {
+        self.views.iter().map(View::texels).sum()
+    }
+
+    /// What the shaders are told.
+    #[must_use]
+    pub fn uniform(&self) -> &LightsUniform {
+        &self.uniform
+    }
+}

@@ -1,0 +1,152 @@
+//! Every shader is valid in every permutation; structs and constants are the same on both sides.
+
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use scumble::{BLOCKER_TAPS, FILTER_OVERRIDE, LIGHTS_MAX, PCF_TAPS, filter_constant, measure_wgsl, shadow_wgsl};
+use scumble_core::Filter;
+
+fn parse(source: &str) -> naga::Module {
+    naga::front::wgsl::parse_str(source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)))
+}
+
+fn validate(source: &str) -> (naga::Module, naga::valid::ModuleInfo) {
+    let module = parse(source);
+    let info = Validator::new(ValidationFlags::all(), Capabilities::all())
+        .validate(&module)
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
+    (module, info)
+}
+
+/// A fragment shader that uses the one public function, as a renderer would.
+fn with_use(group: u32) -> String {
+    format!(
+        "{}
+        @fragment fn shade(@builtin(position) at: vec4f) -> @location(0) vec4f {{
+            return vec4f(shadow_visibility(0u, at.xyz, vec3f(0.0, 1.0, 0.0), at.xy));
+        }}",
+        shadow_wgsl(group)
+    )
+}
+
+fn filters() -> [(&'static str, f64); 4] {
+    [
+        ("none", filter_constant(&Filter::Hard)),
+        ("pcf", filter_constant(&Filter::Pcf { radius_world: 1.0 })),
+        ("pcss", filter_constant(&Filter::Pcss)),
+        ("as uploaded", 3.0),
+    ]
+}
+
+#[test]
+fn every_shader_is_valid_with_every_filter() {
+    for source in [with_use(0), with_use(3), measure_wgsl(), scumble::CLEAR_WGSL.to_owned()] {
+        let (module, info) = validate(&source);
+        for (name, value) in filters() {
+            let constants = if module.overrides.is_empty() {
+                naga::back::PipelineConstants::default()
+            } else {
+                [(FILTER_OVERRIDE.to_owned(), value)].into_iter().collect()
+            };
+            let (fixed, _) = naga::back::pipeline_constants::process_overrides(&module, &info, None, &constants)
+                .unwrap_or_else(|error| panic!("{name}: {error}"));
+            Validator::new(ValidationFlags::all(), Capabilities::all())
+                .validate_resolved_overrides(&fixed)
+                .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(&source)));
+        }
+    }
+}
+
+#[test]
+fn a_wrong_shader_is_found_by_the_same_check() {
+    let wrong = with_use(0).replace("shadow_visibility(0u, at.xyz", "shadow_visibility(0u, at");
+    assert!(std::panic::catch_unwind(|| validate(&wrong)).is_err());
+}
+
+#[test]
+fn the_bindings_move_to_the_callers_group() {
+    let (module, _) = validate(&with_use(2));
+    let groups: Vec<u32> = module
+        .global_variables
+        .iter()
+        .filter_map(|(_, variable)| variable.binding.as_ref().map(|binding| binding.group))
+        .collect();
+    assert_eq!(groups, [2, 2, 2, 2]);
+}
+
+#[test]
+fn all_names_carry_the_prefix() {
+    let module = parse(&shadow_wgsl(0));
+    let functions = module.functions.iter().filter_map(|(_, f)| f.name.clone());
+    let types = module.types.iter().filter_map(|(_, t)| t.name.clone());
+    let constants = module.constants.iter().filter_map(|(_, c)| c.name.clone());
+    let variables = module.global_variables.iter().filter_map(|(_, v)| v.name.clone());
+    for name in functions.chain(types).chain(constants).chain(variables) {
+        assert!(name.to_lowercase().starts_with("shadow"), "{name}");
+    }
+}
+
+/// Offset and size of each member of a WGSL struct, then of the struct itself.
+fn layout(module: &naga::Module, name: &str) -> (Vec<(String, u32)>, u32) {
+    let members = module.types.iter().find_map(|(_, ty)| match &ty.inner {
+        naga::TypeInner::Struct { members, span } if ty.name.as_deref() == Some(name) => Some((members, span)),
+        _ => None,
+    });
+    let (members, span) = members.unwrap_or_else(|| panic!("no struct {name}"));
+    let offsets = members
+        .iter()
+        .map(|member| (member.name.clone().unwrap_or_default(), member.offset))
+        .collect();
+    (offsets, *span)
+}
+
+macro_rules! assert_same_layout {
+    ($module:expr, $wgsl:literal, $rust:ty, [$($field:ident),* $(,)?]) => {{
+        let (offsets, size) = layout(&$module, $wgsl);
+        let rust = vec![$((stringify!($field).to_owned(), std::mem::offset_of!($rust, $field) as u32)),*];
+        assert_eq!(offsets, rust, "{}", $wgsl);
+        assert_eq!(size as usize, size_of::<$rust>(), "size of {}", $wgsl);
+    }};
+}
+
+#[test]
+fn structs_have_the_same_offsets_in_rust_and_wgsl() {
+    use scumble::uniforms::{LightUniform, LightsUniform, MeasureUniform, TapsUniform};
+    let module = parse(&measure_wgsl());
+    assert_same_layout!(module, "ShadowLight", LightUniform, [
+        clip_from_world, light_from_world, viewport_texels, texel_from_plane, depth_near, depth_far, is_spot, layer,
+        light_size, radius_world, radius_min_world, texel_world, bias_constant_texels,
+        bias_slope_texels, bias_rounding_world, slope_max, has_map, filter_kind, padding,
+    ]);
+    assert_same_layout!(module, "ShadowLights", LightsUniform, [lights]);
+    assert_same_layout!(module, "ShadowTaps", TapsUniform, [pcf, blocker]);
+    assert_same_layout!(module, "Measure", MeasureUniform, [
+        eye, depth_numerator, ray_corner, depth_offset, ray_x, stride, ray_y, radius_per_footprint, forward,
+        radius_floor_world, pixel_at_unit_distance,
+    ]);
+}
+
+/// Value of a WGSL constant of type u32.
+fn constant(module: &naga::Module, name: &str) -> u32 {
+    let (_, constant) = module
+        .constants
+        .iter()
+        .find(|(_, constant)| constant.name.as_deref() == Some(name))
+        .unwrap_or_else(|| panic!("no constant {name}"));
+    match module.global_expressions[constant.init] {
+        naga::Expression::Literal(naga::Literal::U32(value)) => value,
+        ref other => panic!("{name} is {other:?}"),
+    }
+}
+
+#[test]
+fn constants_are_the_same_in_rust_and_wgsl() {
+    let module = parse(&measure_wgsl());
+    assert_eq!(constant(&module, "SHADOW_LIGHTS_MAX"), LIGHTS_MAX);
+    assert_eq!(constant(&module, "SHADOW_PCF_TAPS"), PCF_TAPS);
+    assert_eq!(constant(&module, "SHADOW_BLOCKER_TAPS"), BLOCKER_TAPS);
+    assert_eq!(constant(&module, "MEASURE_NOTHING"), f32::INFINITY.to_bits());
+    assert_eq!(scumble::MEASURE_NOTHING, f32::INFINITY.to_bits());
+    let kinds = ["SHADOW_FILTER_HARD", "SHADOW_FILTER_PCF", "SHADOW_FILTER_PCSS", "SHADOW_FILTER_UPLOADED"];
+    for (name, (_, value)) in kinds.into_iter().zip(filters()) {
+        assert_eq!(f64::from(constant(&module, name)), value, "{name}");
+    }
+}
