@@ -183,3 +183,101 @@ pub fn pcss(
         radius_world,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Bias;
+    use crate::fit::tests_support::{lamp_over_room, sun_over_room};
+    use crate::kernel::half_plane_under_disc;
+    use glam::DVec3;
+
+    fn plane(fit: &Fit, p: DVec3) -> ReceiverPlane {
+        ReceiverPlane::new(fit, p, DVec3::Y, &Bias::without_texels(), DVec2::ZERO)
+    }
+
+    #[test]
+    fn the_filter_of_a_straight_edge_is_the_closed_form() {
+        let fit = sun_over_room();
+        let receiver = plane(&fit, DVec3::ZERO);
+        let taps = poisson_disc(1000, 1);
+        for i in -10..=10 {
+            let t = f64::from(i) / 10.0;
+            let lookup = |offset: DVec2, _| f64::from(u8::from(offset.x > -0.3 * t));
+            let filtered = pcf(lookup, &taps, 0.3, 0.7, &receiver);
+            assert!((filtered - half_plane_under_disc(t)).abs() < 0.02, "{t} {filtered}");
+        }
+    }
+
+    #[test]
+    fn an_open_plane_is_lit_and_a_lid_above_it_darkens_it() {
+        for fit in [sun_over_room(), lamp_over_room()] {
+            let receiver = plane(&fit, DVec3::new(0.2, 0.0, 0.1));
+            let itself = |offset: DVec2| Some(receiver.depth_at(offset) + receiver.bias_world);
+            let lookup = |offset: DVec2, depth: f64| f64::from(u8::from(itself(offset).is_none_or(|d| d >= depth)));
+            let open = pcss(itself, lookup, &Taps::default(), 1.0, &fit, &receiver, 0.01);
+            assert_eq!((open.visibility, open.blockers, open.radius_world), (1.0, None, 0.0));
+            let lid = receiver.depth - 0.5;
+            let closed = pcss(|_| Some(lid), |_, depth| f64::from(u8::from(lid >= depth)), &Taps::default(), 1.0, &fit, &receiver, 0.0);
+            assert_eq!(closed.visibility, 0.0);
+            let blockers = closed.blockers.unwrap();
+            assert_eq!((blockers.count, blockers.total), (16, 16));
+            assert!((blockers.mean_depth - lid).abs() < 1e-12);
+            assert_eq!(closed.radius_world, filter_radius_world(&fit, receiver.depth, lid));
+        }
+    }
+
+    #[test]
+    fn the_radii_are_those_of_similar_triangles() {
+        let fit = lamp_over_room();
+        let Light::Spot { radius_world: light, .. } = fit.light else { unreachable!() };
+        let (receiver, blocker) = (4.0, 2.5);
+        // The penumbra at the receiver is the light's disc seen through the blocker; its rays from the light's middle
+        // narrow it to the reference plane.
+        let penumbra = light * (receiver - blocker) / blocker;
+        let on_plane = penumbra * fit.depth_near / receiver;
+        assert!((filter_radius_world(&fit, receiver, blocker) - on_plane).abs() < 1e-12);
+        // A blocker on the near plane has the widest penumbra: what the search covers.
+        let widest = filter_radius_world(&fit, receiver, fit.depth_near);
+        assert!((search_radius_world(&fit, receiver) - widest).abs() < 1e-12);
+        let sun = sun_over_room();
+        let gap = 1.5;
+        assert!((filter_radius_world(&sun, 2.0 + gap, 2.0) - gap * 0.05_f64.tan()).abs() < 1e-12);
+        let near = sun.depth_near;
+        assert_eq!(search_radius_world(&sun, near + 1.0), filter_radius_world(&sun, near + 1.0, near));
+    }
+
+    #[test]
+    fn a_blocker_at_or_behind_the_receiver_has_no_radius_but_the_smallest() {
+        for fit in [sun_over_room(), lamp_over_room()] {
+            assert_eq!(filter_radius_world(&fit, 3.0, 3.0), 0.0);
+            assert_eq!(filter_radius_world(&fit, 3.0, 3.5), 0.0);
+            assert_eq!(search_radius_world(&fit, fit.depth_near - 1e-3), 0.0);
+        }
+    }
+
+    #[test]
+    fn contact_is_filtered_with_the_smallest_radius() {
+        let fit = sun_over_room();
+        let receiver = plane(&fit, DVec3::ZERO);
+        let touching = |_| Some(receiver.depth - 0.01);
+        let shadow = pcss(touching, |_, _| 0.0, &Taps::default(), 0.0, &fit, &receiver, 0.04);
+        assert_eq!(shadow.radius_world, 0.04);
+    }
+
+    #[test]
+    fn a_hard_shadow_is_one_lookup_at_the_receiver() {
+        let fit = sun_over_room();
+        let receiver = plane(&fit, DVec3::ZERO);
+        let lookups = std::cell::Cell::new(0);
+        let lit = hard(
+            |offset, depth| {
+                lookups.set(lookups.get() + 1);
+                assert_eq!((offset, depth), (DVec2::ZERO, receiver.depth_at(DVec2::ZERO)));
+                1.0
+            },
+            &receiver,
+        );
+        assert_eq!((lit, lookups.get()), (1.0, 1));
+    }
+}

@@ -94,3 +94,59 @@ impl SplitMix {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Visibility of a map of unit texels whose texel is lit when its centre is: the nearest texel, or four bilinearly.
+    fn stored(p: DVec2, normal: DVec2, bilinear: bool) -> f64 {
+        let texel = |x: f64, y: f64| f64::from(u8::from(normal.dot(DVec2::new(x + 0.5, y + 0.5)) > 0.0));
+        if !bilinear {
+            return texel(p.x.floor(), p.y.floor());
+        }
+        let q = p - 0.5;
+        let (base, share) = (q.floor(), q - q.floor());
+        let row = |y: f64| texel(base.x, y) * (1.0 - share.x) + texel(base.x + 1.0, y) * share.x;
+        row(base.y) * (1.0 - share.y) + row(base.y + 1.0) * share.y
+    }
+
+    /// Maximum and RMS error of a filtered straight edge against the closed form, over angles, phases and distances.
+    fn residual(taps: &[DVec2], ratio: f64, bilinear: bool, rotated: bool) -> (f64, f64) {
+        let (mut largest, mut squares, mut count) = (0.0_f64, 0.0, 0_u32);
+        for angle in 0..46_u32 {
+            let normal = DVec2::from_angle(f64::from(angle).to_radians());
+            for i in 0..400_u32 {
+                // A point at a distance of up to r from the edge, anywhere along it (R2 sequence).
+                let along = 97.0 * (f64::from(i) * 0.754_877_666).fract() - 40.0;
+                let t = 2.0 * (f64::from(i) * 0.569_840_291).fract() - 1.0;
+                let p = normal * (t * ratio) + normal.perp() * along;
+                let turn = DVec2::from_angle(if rotated { rotation_angle([i, angle]) } else { 0.0 });
+                let sum: f64 = taps.iter().map(|tap| stored(p + turn.rotate(*tap) * ratio, normal, bilinear)).sum();
+                let error = sum / taps.len() as f64 - half_plane_under_disc(t);
+                largest = largest.max(error.abs());
+                squares += error * error;
+                count += 1;
+            }
+        }
+        (largest, (squares / f64::from(count)).sqrt())
+    }
+
+    fn dense_disc() -> Vec<DVec2> {
+        let golden = PI * (3.0 - 5.0_f64.sqrt());
+        (0..1500_u32).map(|i| DVec2::from_angle(f64::from(i) * golden) * ((f64::from(i) + 0.5) / 1500.0).sqrt()).collect()
+    }
+
+    #[test]
+    fn print_residuals() {
+        println!("dense nearest {:?}", residual(&dense_disc(), 3.47, false, true));
+        println!("dense bilinear {:?}", residual(&dense_disc(), 3.47, true, true));
+        let mut best = Vec::new();
+        for n in [8, 16, 25, 64] {
+            let mut all: Vec<_> = (0..64).map(|s| { let d = poisson_disc(n, s); let r = residual(&d, 3.47, true, true); (r.1, r.0, s) }).collect();
+            all.sort_by(|a, b| a.0.total_cmp(&b.0));
+            best.push((n, all[0], all[32], all[63]));
+        }
+        println!("{best:#?}");
+    }
+}

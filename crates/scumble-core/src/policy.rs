@@ -246,3 +246,154 @@ pub fn size_achieved(
         capped,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn policy() -> SizePolicy {
+        SizePolicy::new(&Settings::default()).unwrap()
+    }
+
+    /// The demand that asks for `n` texels across one metre.
+    fn asking(n: f64) -> Demand {
+        Demand::Radius(3.47 / n)
+    }
+
+    #[test]
+    fn the_ladder_is_a_quarter_octave_rounded_up_to_eights() {
+        let ladder = Ladder::new(8, 4096);
+        let start = [8, 16, 24, 32, 40, 48, 56, 64, 80, 96, 112, 128, 160, 184, 216, 256];
+        assert_eq!(ladder.rungs()[..start.len()], start);
+        assert_eq!(ladder.rungs()[ladder.rungs().len() - 5..], [2048, 2440, 2904, 3448, 4096]);
+        assert_eq!(Ladder::new(8, 1001).top(), 1000);
+        assert_eq!(Ladder::new(8, 8).rungs(), [8]);
+        assert_eq!(Ladder::new(100, 110).rungs(), [104]);
+    }
+
+    #[test]
+    fn the_ladder_costs_a_fifth_more_area_than_was_asked() {
+        let ladder = Ladder::new(8, 4096);
+        let overshoot = |i: u32| {
+            // Evenly in log2 from 128 to 4096, where the multiple of 8 hardly counts.
+            let n = 128.0 * (f64::from(i) / 1000.0 * 5.0).exp2();
+            (f64::from(ladder.texels(ladder.rung(n))) / n).powi(2)
+        };
+        let mean = (0..1000).map(overshoot).sum::<f64>() / 1000.0;
+        assert!((mean - 1.19).abs() < 0.03, "{mean}");
+    }
+
+    #[test]
+    fn a_size_grows_at_once_and_shrinks_after_thirty_frames_by_an_octave_at_most() {
+        let mut policy = policy();
+        let mut next = |n: f64| policy.next(DVec2::ONE, asking(n)).unwrap().texels[0];
+        assert_eq!(next(100.0), 112);
+        assert_eq!(next(1500.0), 1728);
+        for _ in 0..29 {
+            assert_eq!(next(1000.0), 1728);
+        }
+        assert_eq!(next(1000.0), 1024);
+        for _ in 0..29 {
+            assert_eq!(next(100.0), 1024);
+        }
+        assert_eq!(next(100.0), 512);
+    }
+
+    #[test]
+    fn a_demand_that_comes_back_keeps_the_size() {
+        let mut policy = policy();
+        let mut next = |n: f64| policy.next(DVec2::ONE, asking(n)).unwrap().texels[0];
+        assert_eq!(next(1000.0), 1024);
+        for frame in 0..200 {
+            assert_eq!(next(if frame % 29 == 28 { 1000.0 } else { 200.0 }), 1024);
+        }
+    }
+
+    #[test]
+    fn shrinking_keeps_what_the_last_frames_asked_for() {
+        let mut policy = policy();
+        policy.next(DVec2::ONE, asking(1000.0)).unwrap();
+        let mut last = 0;
+        for frame in 0..30 {
+            last = policy.next(DVec2::ONE, asking(if frame == 10 { 700.0 } else { 600.0 })).unwrap().texels[0];
+        }
+        assert_eq!(last, 728);
+    }
+
+    #[test]
+    fn the_axes_have_their_own_sizes() {
+        let size = policy().next(DVec2::new(4.0, 1.0), asking(100.0)).unwrap();
+        assert_eq!(size.texels, [432, 112]);
+    }
+
+    #[test]
+    fn a_bound_cap_says_what_it_achieves() {
+        let size = policy().next(DVec2::new(100.0, 10.0), Demand::Radius(0.02)).unwrap();
+        assert!(size.capped);
+        assert_eq!(size.texels[0], 4096);
+        assert!((size.c_effective - 4096.0 * 0.02 / 100.0).abs() < 1e-12);
+        assert!((size.radius_min_world - 3.47 * 100.0 / 4096.0).abs() < 1e-12);
+        let met = policy().next(DVec2::ONE, asking(100.0)).unwrap();
+        assert!(!met.capped && met.c_effective >= 3.47 && met.radius_min_world <= 3.47 / 100.0);
+        let hard = policy().next(DVec2::ONE, Demand::Radius(0.0)).unwrap();
+        assert!(hard.capped && hard.texels == [4096, 4096]);
+        let exact = policy().next(DVec2::ONE, asking(4096.0)).unwrap();
+        assert!(!exact.capped);
+    }
+
+    #[test]
+    fn no_penumbra_keeps_the_size_or_starts_with_the_smallest() {
+        let mut policy = policy();
+        assert_eq!(policy.next(DVec2::ONE, Demand::Nothing).unwrap().texels, [8, 8]);
+        policy.next(DVec2::ONE, asking(500.0)).unwrap();
+        for _ in 0..100 {
+            assert_eq!(policy.next(DVec2::ONE, Demand::Nothing).unwrap().texels, [512, 512]);
+        }
+    }
+
+    #[test]
+    fn a_demand_without_meaning_is_refused_and_changes_nothing() {
+        let mut policy = policy();
+        policy.next(DVec2::ONE, asking(500.0)).unwrap();
+        let before = policy.clone();
+        for radius in [f64::NAN, -1.0, -0.0, f64::INFINITY] {
+            assert!(policy.next(DVec2::ONE, Demand::Radius(radius)).is_err(), "{radius}");
+        }
+        for extent in [DVec2::ZERO, DVec2::new(1.0, f64::NAN)] {
+            assert!(policy.next(extent, asking(100.0)).is_err());
+            assert!(policy.next(extent, Demand::Nothing).is_err());
+        }
+        assert_eq!(policy, before);
+    }
+
+    #[test]
+    fn the_smallest_radius_bounds_the_demand() {
+        let settings = Settings { radius_min_world: 3.47 / 256.0, ..Settings::default() };
+        let mut policy = SizePolicy::new(&settings).unwrap();
+        assert_eq!(policy.next(DVec2::ONE, Demand::Radius(0.0)).unwrap().texels, [256, 256]);
+        assert!(policy.next(DVec2::ONE, Demand::Radius(-0.0)).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn a_demand_that_settles_gives_a_size_that_settles(start in prop::collection::vec(7.0..9000.0_f64, 0..60), settled in 7.0..9000.0_f64) {
+            let mut policy = policy();
+            for n in start {
+                policy.next(DVec2::ONE, asking(n)).unwrap();
+            }
+            // From the cap down: at most 9 octaves, 30 frames each.
+            for _ in 0..300 {
+                policy.next(DVec2::ONE, asking(settled)).unwrap();
+            }
+            let size = policy.next(DVec2::ONE, asking(settled)).unwrap();
+            for _ in 0..100 {
+                prop_assert_eq!(policy.next(DVec2::ONE, asking(settled)).unwrap(), size);
+            }
+            prop_assert!(size.capped || size.c_effective >= 3.47 * (1.0 - 2e-6));
+            // Nothing is left over but the band in which it does not shrink, and the ladder.
+            let n = f64::from(size.texels[0]);
+            prop_assert!(size.capped || n * 0.8 <= settled || n == f64::from(policy.ladder().texels(policy.ladder().rung(settled))));
+        }
+    }
+}

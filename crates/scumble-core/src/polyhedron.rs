@@ -30,6 +30,12 @@ impl HalfSpace {
         }
     }
 
+    /// Unit normal of the boundary, pointing inside.
+    #[must_use]
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+
     /// Signed distance of `point` from the boundary, positive inside.
     #[must_use]
     pub fn distance(&self, point: DVec3) -> f64 {
@@ -173,4 +179,67 @@ fn convex_loop(points: Vec<DVec3>, normal: DVec3, tolerance: f64) -> Vec<DVec3> 
     let lower = chain(&mut plane.iter());
     let upper = chain(&mut plane.iter().rev());
     lower.into_iter().chain(upper).map(|p| p.2).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Aabb;
+
+    fn cube() -> Polyhedron {
+        Polyhedron::from_corners(Aabb { min: DVec3::NEG_ONE, max: DVec3::ONE }.corners())
+    }
+
+    /// By the divergence theorem over fans of triangles; faces may turn either way, so each is signed by its side of the centre.
+    fn volume(body: &Polyhedron) -> f64 {
+        let points: Vec<DVec3> = body.vertices().collect();
+        let center = points.iter().sum::<DVec3>() / points.len() as f64;
+        let fan = |face: &Vec<DVec3>| -> f64 {
+            let area: DVec3 = (1..face.len().max(1) - 1).map(|i| (face[i] - face[0]).cross(face[i + 1] - face[0])).sum();
+            area.dot(face[0] - center).abs() / 6.0
+        };
+        body.faces().iter().filter(|face| face.len() > 2).map(fan).sum()
+    }
+
+    #[test]
+    fn half_a_cube_has_half_its_volume_whatever_the_cut() {
+        for normal in [DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::ONE, DVec3::new(0.3, -0.8, 0.1)] {
+            let half = cube().clip(&HalfSpace::through(DVec3::ZERO, normal));
+            assert!((volume(&half) - 4.0).abs() < 1e-12, "{normal}");
+        }
+    }
+
+    #[test]
+    fn the_cut_through_the_middle_of_a_cube_is_a_hexagon() {
+        let half = cube().clip(&HalfSpace::through(DVec3::ZERO, DVec3::ONE));
+        assert!(half.faces().iter().any(|face| face.len() == 6));
+    }
+
+    #[test]
+    fn three_cuts_that_meet_inside_leave_their_common_corner() {
+        let corner = DVec3::new(0.2, 0.1, -0.3);
+        let cuts = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| HalfSpace::through(corner, axis));
+        let rest = cube().clip_all(&cuts);
+        assert!(rest.vertices().any(|p| (p - corner).length() < 1e-12));
+        assert!((volume(&rest) - 0.8 * 0.9 * 1.3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn planes_that_touch_change_nothing_and_planes_beyond_leave_nothing() {
+        let touching = HalfSpace::through(DVec3::new(-1.0 + 1e-14, 0.0, 0.0), DVec3::X);
+        assert_eq!(cube().clip(&touching), cube());
+        assert!(cube().clip(&HalfSpace::through(DVec3::new(2.0, 0.0, 0.0), DVec3::X)).is_empty());
+        assert!(!cube().is_empty());
+    }
+
+    #[test]
+    fn flat_and_thin_bodies_clip_like_others() {
+        let flat = Polyhedron::from_corners(Aabb { min: DVec3::new(-1.0, 0.0, -1.0), max: DVec3::new(1.0, 0.0, 1.0) }.corners());
+        let line = Polyhedron::from_corners(Aabb { min: DVec3::new(-1.0, 0.0, 0.0), max: DVec3::new(1.0, 0.0, 0.0) }.corners());
+        let cuts = [HalfSpace::through(DVec3::new(0.25, 0.0, 0.0), DVec3::new(1.0, 0.0, 0.0)), HalfSpace::through(DVec3::new(0.75, 0.0, 0.0), DVec3::NEG_X)];
+        for body in [flat, line] {
+            let bounds = Aabb::from_points(body.clip_all(&cuts).vertices());
+            assert!((bounds.min.x - 0.25).abs() < 1e-12 && (bounds.max.x - 0.75).abs() < 1e-12);
+        }
+    }
 }

@@ -1,1 +1,309 @@
+//! What a fit promises, against an independent enumeration of the receivers' vertices.
 
+use glam::{DMat3, DVec2, DVec3};
+use proptest::prelude::*;
+
+use super::tests_support::{lamp, lamp_over_room, observer, room, sun, sun_over_room};
+use super::{Fit, fit};
+use crate::polyhedron::HalfSpace;
+use crate::{Aabb, Camera, Light};
+
+fn scene_sides(scene: &Aabb) -> Vec<HalfSpace> {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let side = |axis| {
+        [
+            HalfSpace::through(scene.min, axis),
+            HalfSpace::through(scene.max, -axis),
+        ]
+    };
+    axes.into_iter().flat_map(side).collect()
+}
+
+/// All half spaces whose intersection is PSR.
+fn receiver_sides(camera: &Camera, scene: &Aabb, light: &Light, fit: &Fit) -> Vec<HalfSpace> {
+    let mut sides = scene_sides(scene);
+    sides.extend(camera.half_spaces(DVec3::ZERO));
+    sides.extend(light.half_spaces(DVec3::ZERO));
+    if let Light::Spot {
+        position,
+        direction,
+        ..
+    } = *light
+    {
+        let axis = direction.normalize();
+        sides.push(HalfSpace::through(
+            position + fit.depth_near * axis,
+            axis,
+        ));
+    }
+    sides
+}
+
+/// The vertices of an intersection of half spaces: the points where three boundaries meet that lie in all.
+fn vertices(sides: &[HalfSpace]) -> Vec<DVec3> {
+    let mut found = Vec::new();
+    for i in 0..sides.len() {
+        for j in 0..i {
+            for k in 0..j {
+                let (a, b, c) = (&sides[i], &sides[j], &sides[k]);
+                let planes = DMat3::from_cols(a.normal(), b.normal(), c.normal()).transpose();
+                if planes.determinant().abs() < 1e-9 {
+                    continue;
+                }
+                let offsets =
+                    DVec3::new(a.distance(DVec3::ZERO), b.distance(DVec3::ZERO), c.distance(DVec3::ZERO));
+                let p = planes.inverse() * -offsets;
+                if sides.iter().all(|side| side.distance(p) >= -1e-7) {
+                    found.push(p);
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Asserts that the receivers' box is the map: nothing outside, nothing left over.
+fn assert_tight(camera: &Camera, scene: &Aabb, light: &Light) -> Result<(), TestCaseError> {
+    let Some(fit) = fit(camera, scene, light, true).unwrap() else {
+        return Ok(());
+    };
+    let corners = vertices(&receiver_sides(camera, scene, light, &fit));
+    // Enumeration blurs bodies thinner than its tolerance.
+    if fit.extent_world.min_element() < 1e-3 {
+        return Ok(());
+    }
+    prop_assert!(!corners.is_empty());
+    let uvs: Vec<DVec2> = corners.iter().map(|&p| fit.uv_from_world(p).0).collect();
+    let min = uvs.iter().fold(DVec2::INFINITY, |a, &b| a.min(b));
+    let max = uvs.iter().fold(DVec2::NEG_INFINITY, |a, &b| a.max(b));
+    prop_assert!(min.abs().max_element() < 1e-3, "{min}");
+    prop_assert!((max - 1.0).abs().max_element() < 1e-3, "{max}");
+    for &p in &corners {
+        let depth = fit.depth(p);
+        prop_assert!(depth >= fit.depth_near - 1e-6 && depth <= fit.depth_far + 1e-6);
+        let ndc = fit.clip_from_world().project_point3(p);
+        prop_assert!((ndc.z - fit.ndc_from_depth(depth)).abs() < 1e-6);
+        let uv = DVec2::new(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y);
+        prop_assert!((uv - fit.uv_from_world(p).0).abs().max_element() < 1e-6);
+    }
+    Ok(())
+}
+
+fn vector(size: f64) -> impl Strategy<Value = DVec3> {
+    (-size..size, -size..size, -size..size).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+}
+
+fn any_camera() -> impl Strategy<Value = Camera> {
+    (vector(6.0), vector(2.0), 0.2..1.8_f64, 0.5..2.0_f64, 1.0..30.0_f64).prop_map(
+        |(eye, target, vertical_fov, aspect, far)| Camera {
+            eye,
+            target,
+            up: DVec3::new(0.1, 1.0, 0.05),
+            vertical_fov,
+            aspect,
+            near: 0.05,
+            far,
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(192))]
+
+    #[test]
+    fn the_map_of_the_sun_is_the_smallest_box_of_the_receivers(camera in any_camera(), direction in vector(1.0)) {
+        let light = Light::Directional { direction, half_angle: 0.01 };
+        assert_tight(&camera, &room(), &light)?;
+    }
+
+    #[test]
+    fn the_map_of_a_lamp_is_the_smallest_box_of_the_receivers(camera in any_camera(), position in vector(6.0), aim in vector(1.5), cone_half_angle in 0.2..1.2_f64) {
+        let light = Light::Spot { position, direction: aim - position, cone_half_angle, radius_world: 0.1 };
+        assert_tight(&camera, &room(), &light)?;
+    }
+
+    #[test]
+    fn every_receiver_and_every_caster_before_it_is_in_the_map(camera in any_camera(), direction in vector(1.0), share in (0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64), before in 0.0..10.0_f64) {
+        let light = Light::Directional { direction, half_angle: 0.01 };
+        let p = room().min + room().size() * DVec3::new(share.0, share.1, share.2);
+        prop_assume!(camera.half_spaces(DVec3::ZERO).iter().all(|side| side.distance(p) > 0.0));
+        let fit = fit(&camera, &room(), &light, true).unwrap().unwrap();
+        let (uv, depth) = fit.uv_from_world(p);
+        prop_assert!(uv.cmpge(DVec2::splat(-1e-9)).all() && uv.cmple(DVec2::splat(1.0 + 1e-9)).all());
+        prop_assert!(depth <= fit.depth_far);
+        let caster = p - before * direction.normalize();
+        if scene_sides(&room()).iter().all(|side| side.distance(caster) > 0.0) {
+            prop_assert!(fit.depth(caster) >= fit.depth_near);
+        }
+    }
+}
+
+#[test]
+fn a_point_goes_to_the_plane_and_back() {
+    for fit in [sun_over_room(), lamp_over_room()] {
+        let p = DVec3::new(0.3, 0.2, -0.4);
+        let back = fit.world_from_plane(fit.plane_from_world(p), fit.depth(p));
+        assert!((back - p).length() < 1e-12);
+        let depth = fit.depth(p);
+        assert!((fit.depth_from_ndc(fit.ndc_from_depth(depth)) - depth).abs() < 1e-9);
+        assert!(fit.ndc_from_depth(fit.depth_near).abs() < 1e-12);
+        assert!((fit.ndc_from_depth(fit.depth_far) - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_fitted_map_is_smaller_by_the_scale_of_each_axis() {
+    for light in [sun(), lamp()] {
+        let fitted = fit(&observer(), &room(), &light, true).unwrap().unwrap();
+        let square = fit(&observer(), &room(), &light, false).unwrap().unwrap();
+        assert_eq!(square.extent_world.x, square.extent_world.y);
+        assert!((square.scale - 1.0).abs().max_element() < 1e-12);
+        assert!(fitted.scale.min_element() >= 1.0);
+        let side = fitted.extent_world * fitted.scale;
+        assert!((side - square.extent_world).abs().max_element() < 1e-9);
+        assert!(fitted.scale.x != fitted.scale.y);
+    }
+}
+
+#[test]
+fn a_border_of_the_radius_keeps_every_tap_inside() {
+    for fit in [sun_over_room(), lamp_over_room()] {
+        let wider = fit.with_border(0.1);
+        let corner = fit.world_from_plane(fit.plane_from_world(DVec3::ZERO), fit.depth(DVec3::ZERO));
+        let (narrow, _) = fit.uv_from_world(corner);
+        let (wide, _) = wider.uv_from_world(corner);
+        let from_edge = narrow * fit.extent_world + 0.1;
+        assert!((wide * wider.extent_world - from_edge).length() < 1e-12);
+        assert!(wider.depth_near <= fit.depth_near);
+        assert!((wider.scale * wider.extent_world - fit.scale * fit.extent_world).length() < 1e-9);
+    }
+}
+
+#[test]
+fn the_near_plane_of_a_lamp_does_not_follow_the_observer() {
+    let near = lamp_over_room().depth_near;
+    for x in [-3.0, 0.0, 2.0] {
+        let camera = Camera { eye: DVec3::new(x, 1.0, 3.0), ..observer() };
+        let fit = fit(&camera, &room(), &lamp(), true).unwrap().unwrap();
+        assert_eq!(fit.depth_near, near);
+    }
+}
+
+#[test]
+fn where_the_light_lights_nothing_seen_there_is_no_map() {
+    let away = Camera { target: DVec3::new(2.0, 1.2, 9.0), ..observer() };
+    let upwards = Light::Spot {
+        position: DVec3::new(0.0, 4.0, 0.0),
+        direction: DVec3::Y,
+        cone_half_angle: 0.8,
+        radius_world: 0.1,
+    };
+    for light in [sun(), lamp()] {
+        assert_eq!(fit(&away, &room(), &light, true).unwrap(), None);
+        assert_eq!(fit(&away, &room(), &light, false).unwrap(), None);
+        assert_eq!(fit(&observer(), &Aabb::EMPTY, &light, true).unwrap(), None);
+    }
+    assert_eq!(fit(&observer(), &room(), &upwards, true).unwrap(), None);
+}
+
+/// The promise that holds for every degenerate case: finite numbers and an invertible matrix.
+fn assert_usable(fit: &Fit) {
+    assert!(fit.extent_world.is_finite() && fit.extent_world.min_element() > 0.0);
+    assert!(fit.scale.is_finite());
+    assert!(fit.depth_near.is_finite() && fit.depth_far > fit.depth_near);
+    assert!(fit.clip_from_world().is_finite());
+    assert!(fit.clip_from_world().determinant().abs() > 0.0);
+}
+
+#[test]
+fn degenerate_views_have_a_usable_map() {
+    let inside = |eye| Camera { eye, target: DVec3::new(0.0, 0.0, -1.0), ..observer() };
+    let spot = |position: DVec3, direction| Light::Spot { position, direction, cone_half_angle: 0.7, radius_world: 0.1 };
+    let camera = observer();
+    let sun_along = Light::Directional { direction: camera.forward(), half_angle: 0.01 };
+    let cases = [
+        ("the light shines along the view", camera, sun_along),
+        ("the light shines against the view", camera, Light::Directional { direction: -camera.forward(), half_angle: 0.01 }),
+        ("the sun is in the zenith", camera, Light::Directional { direction: DVec3::NEG_Y, half_angle: 0.0 }),
+        ("the lamp is in the view and shines at the camera", camera, spot(DVec3::ZERO, camera.eye)),
+        ("the lamp is in the view and shines away", camera, spot(DVec3::ZERO, camera.forward())),
+        ("the lamp is in the camera", camera, spot(camera.eye, camera.forward())),
+        ("the camera is in a caster", inside(DVec3::new(1.0, 0.5, 0.0)), sun()),
+        ("the camera is in the lamp", inside(DVec3::new(-0.5, 4.0, 0.5)), lamp()),
+        ("the far plane is infinite", Camera { far: f64::INFINITY, ..camera }, sun()),
+        ("the far plane is infinite under a lamp", Camera { far: f64::INFINITY, ..camera }, lamp()),
+    ];
+    for (name, camera, light) in cases {
+        for fitted in [true, false] {
+            let fit = fit(&camera, &room(), &light, fitted).unwrap();
+            assert_usable(&fit.unwrap_or_else(|| panic!("{name}")));
+        }
+    }
+}
+
+#[test]
+fn flat_thin_and_one_point_scenes_have_a_usable_map() {
+    let flat = |size: DVec3| Aabb { min: -0.5 * size, max: 0.5 * size };
+    let scenes = [
+        flat(DVec3::new(2.0, 0.0, 2.0)),
+        flat(DVec3::new(0.0, 2.0, 2.0)),
+        flat(DVec3::new(0.0, 2.0, 0.0)),
+        flat(DVec3::ZERO),
+        flat(DVec3::splat(1e-9)),
+    ];
+    let across = Light::Directional { direction: DVec3::X, half_angle: 0.01 };
+    let down = Light::Directional { direction: DVec3::NEG_Y, half_angle: 0.01 };
+    for scene in scenes {
+        for light in [sun(), lamp(), across, down] {
+            for fitted in [true, false] {
+                let fit = fit(&observer(), &scene, &light, fitted).unwrap();
+                assert_usable(&fit.unwrap_or_else(|| panic!("{scene:?} {light:?}")));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_flat_floor_is_fitted_as_tightly_as_a_thin_one() {
+    let floor = |thickness: f64| Aabb {
+        min: DVec3::new(-40.0, -thickness, -40.0),
+        max: DVec3::new(40.0, 0.0, 40.0),
+    };
+    for light in [sun(), lamp()] {
+        let flat = fit(&observer(), &floor(0.0), &light, true).unwrap().unwrap();
+        let thin = fit(&observer(), &floor(1e-9), &light, true).unwrap().unwrap();
+        assert!((flat.extent_world - thin.extent_world).abs().max_element() < 1e-6);
+    }
+}
+
+#[test]
+fn a_scene_a_million_metres_away_has_the_same_map() {
+    let shift = DVec3::new(1e6, -1e6, 1e6);
+    let camera = Camera { eye: observer().eye + shift, target: observer().target + shift, ..observer() };
+    let scene = Aabb { min: room().min + shift, max: room().max + shift };
+    for light in [sun(), lamp()] {
+        let moved = match light {
+            Light::Spot { position, direction, cone_half_angle, radius_world } => {
+                Light::Spot { position: position + shift, direction, cone_half_angle, radius_world }
+            }
+            sun => sun,
+        };
+        let near = fit(&observer(), &room(), &light, true).unwrap().unwrap();
+        let far = fit(&camera, &scene, &moved, true).unwrap().unwrap();
+        assert!((far.extent_world - near.extent_world).abs().max_element() < 1e-7);
+        // Uploaded as f32 relative to a point nearby, it loses nothing that a texel of 1 / 4096 shows.
+        let relative = far.clip_from_relative(shift).as_mat4();
+        let p = DVec3::new(0.2, 0.1, -0.3);
+        let expected = near.clip_from_world().project_point3(p);
+        let uploaded = relative.project_point3(p.as_vec3()).as_dvec3();
+        assert!((uploaded - expected).abs().max_element() < 1e-5, "{uploaded} {expected}");
+    }
+}
+
+#[test]
+fn nan_is_refused_by_name() {
+    let scene = Aabb { min: DVec3::NAN, max: DVec3::ONE };
+    assert!(fit(&observer(), &scene, &sun(), true).unwrap_err().to_string().contains("bounds"));
+    let camera = Camera { eye: DVec3::new(f64::INFINITY, 0.0, 0.0), ..observer() };
+    assert!(fit(&camera, &room(), &sun(), true).unwrap_err().to_string().contains("eye"));
+}
