@@ -32,11 +32,11 @@ pub struct Convergence {
 }
 
 impl Default for Convergence {
-    /// A threshold known within a factor of 1.5 to either side with 90 % probability, three
+    /// A threshold known within a factor of 1.4 to either side with 90 % probability, three
     /// responses of each kind, and two standard deviations between the halves.
     fn default() -> Self {
         Self {
-            interval_width_log10: 0.35,
+            interval_width_log10: 0.3,
             responses_of_each_kind: 3,
             edge_distance_log10: 0.15,
             half_agreement_sds: 2.0,
@@ -68,24 +68,11 @@ impl Convergence {
     /// Refuses numbers that no QUEST could meet; the error names the field.
     pub fn check(&self) -> Result<(), Error> {
         let fields = [
-            (
-                "convergence.interval_width_log10",
-                self.interval_width_log10,
-                0.0,
-            ),
-            (
-                "convergence.half_agreement_sds",
-                self.half_agreement_sds,
-                0.0,
-            ),
+            ("convergence.interval_width_log10", self.interval_width_log10, 0.0),
+            ("convergence.half_agreement_sds", self.half_agreement_sds, 0.0),
         ];
         for (field, value, above) in fields {
-            require(
-                value.is_finite() && value > above,
-                field,
-                value,
-                "a finite number above 0",
-            )?;
+            require(value.is_finite() && value > above, field, value, "a finite number above 0")?;
         }
         require(
             self.edge_distance_log10.is_finite() && self.edge_distance_log10 >= 0.0,
@@ -95,10 +82,11 @@ impl Convergence {
         )
     }
 
-    /// Judges a QUEST by its posterior, its responses `(intensity, correct)` in order, and the
-    /// range of intensities that can be shown.
+    /// Judges a QUEST by its prior, its posterior, the responses `(intensity, correct)` between them
+    /// in order, and the range of intensities that can be shown.
     pub fn judge(
         &self,
+        prior: &Quest,
         quest: &Quest,
         responses: &[(f64, bool)],
         intensity_range: (f64, f64),
@@ -109,7 +97,7 @@ impl Convergence {
             narrow: quest.quantile(0.95) - quest.quantile(0.05) <= self.interval_width_log10,
             both_responses: fewest >= self.responses_of_each_kind as usize,
             inside: self.is_inside(quest, intensity_range),
-            halves_agree: self.halves_agree(quest, responses)?,
+            halves_agree: self.halves_agree(prior, responses)?,
         })
     }
 
@@ -122,9 +110,9 @@ impl Convergence {
         mean - lowest >= self.edge_distance_log10 && highest - mean >= self.edge_distance_log10
     }
 
-    fn halves_agree(&self, quest: &Quest, responses: &[(f64, bool)]) -> Result<bool, Error> {
+    fn halves_agree(&self, prior: &Quest, responses: &[(f64, bool)]) -> Result<bool, Error> {
         let (first, second) = responses.split_at(responses.len() / 2);
-        let mut halves = [Quest::new(*quest.config())?, Quest::new(*quest.config())?];
+        let mut halves = [prior.clone(), prior.clone()];
         for (half, responses) in halves.iter_mut().zip([first, second]) {
             for (intensity, correct) in responses {
                 half.update(*intensity, *correct)?;

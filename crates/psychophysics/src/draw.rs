@@ -118,9 +118,6 @@ mod tests {
         }
         assert_eq!(counts.len(), 6);
         // Standard deviation of a count sqrt(6000 x 5/36) = 29.
-        assert!(
-            counts.values().all(|count| (880..=1120).contains(count)),
-            "{counts:?}"
-        );
+        assert!(counts.values().all(|count| (880..=1120).contains(count)), "{counts:?}");
     }
 }

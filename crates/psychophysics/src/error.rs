@@ -75,16 +75,8 @@ pub enum Error {
 
 impl Error {
     /// A parameter out of its range.
-    pub(crate) fn parameter(
-        field: impl Into<String>,
-        value: impl std::fmt::Display,
-        allowed: &'static str,
-    ) -> Self {
-        Self::Parameter {
-            field: field.into(),
-            value: value.to_string(),
-            allowed,
-        }
+    pub(crate) fn parameter(field: impl Into<String>, value: impl std::fmt::Display, allowed: &'static str) -> Self {
+        Self::Parameter { field: field.into(), value: value.to_string(), allowed }
     }
 
     /// The system's refusal of `path`.
@@ -101,9 +93,5 @@ pub(crate) fn require(
     value: impl std::fmt::Display,
     allowed: &'static str,
 ) -> Result<(), Error> {
-    if good {
-        Ok(())
-    } else {
-        Err(Error::parameter(field, value, allowed))
-    }
+    if good { Ok(()) } else { Err(Error::parameter(field, value, allowed)) }
 }

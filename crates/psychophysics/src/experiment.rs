@@ -97,15 +97,7 @@ impl Experiment {
     pub fn new(protocol: Protocol, seed: u64) -> Result<Self, Error> {
         protocol.check()?;
         let schedule = Schedule::new(&protocol, seed)?;
-        Ok(Self {
-            protocol,
-            seed,
-            schedule,
-            stage: Stage::Instructions,
-            asked: 0,
-            practised: 0,
-            answered: 0,
-        })
+        Ok(Self { protocol, seed, schedule, stage: Stage::Instructions, asked: 0, practised: 0, answered: 0 })
     }
 
     /// What is to be shown.
@@ -165,12 +157,7 @@ impl Experiment {
     }
 
     /// The answer to a trial whose radii may be the recorded ones.
-    pub(crate) fn answer_shown(
-        &mut self,
-        trial: Trial,
-        answer: Side,
-        response_time_secs: f64,
-    ) -> Result<Event, Error> {
+    pub(crate) fn answer_shown(&mut self, trial: Trial, answer: Side, response_time_secs: f64) -> Result<Event, Error> {
         require(
             is_response_time(response_time_secs),
             "response_time_secs",
@@ -178,31 +165,20 @@ impl Experiment {
             "a finite number of seconds, at least 0",
         )?;
         let correct = trial.is_correct(answer);
-        let answered = Answered {
-            trial,
-            answer,
-            correct,
-            response_time_secs,
-        };
+        let answered = Answered { trial, answer, correct, response_time_secs };
         if let Stage::Practice(_) = self.stage {
             self.practised += 1;
             self.stage = Stage::Feedback { correct };
             return Ok(Event::Practice(answered));
         }
-        self.schedule
-            .track_mut(self.asked)
-            .respond(&self.protocol, &trial, correct)?;
+        self.schedule.track_mut(self.asked).respond(&self.protocol, &trial, correct)?;
         self.answered += 1;
         self.stage = self.next_trial();
         Ok(Event::Trial(answered))
     }
 
     fn refuse(&self, call: &'static str, allowed: &'static str) -> Error {
-        Error::Stage {
-            call,
-            stage: self.stage.name(),
-            allowed,
-        }
+        Error::Stage { call, stage: self.stage.name(), allowed }
     }
 
     fn next_practice(&self) -> Stage {
@@ -240,18 +216,10 @@ impl Experiment {
     }
 
     fn rest(&self) -> Stage {
-        Stage::Break {
-            round: self.schedule.round_number(),
-            rounds: self.schedule.rounds() as u32,
-        }
+        Stage::Break { round: self.schedule.round_number(), rounds: self.schedule.rounds() as u32 }
     }
 
     fn place(&self, purpose: Purpose, number: u32, round: u32) -> Place {
-        Place {
-            seed: self.seed,
-            purpose,
-            number,
-            round,
-        }
+        Place { seed: self.seed, purpose, number, round }
     }
 }

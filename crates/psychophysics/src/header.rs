@@ -90,13 +90,7 @@ impl Software {
 
 impl SessionHeader {
     /// A header without display and simulated person.
-    pub fn new(
-        participant: &str,
-        protocol: Protocol,
-        seed: u64,
-        started_at: Timestamp,
-        software: Software,
-    ) -> Self {
+    pub fn new(participant: &str, protocol: Protocol, seed: u64, started_at: Timestamp, software: Software) -> Self {
         Self {
             schema: SESSION_SCHEMA.into(),
             participant: participant.into(),
@@ -112,16 +106,10 @@ impl SessionHeader {
     /// Refuses a foreign schema, a participant code that could be a name with more than a word, and
     /// parameters outside their ranges; the error names the field.
     pub fn check(&self) -> Result<(), Error> {
-        require(
-            self.schema == SESSION_SCHEMA,
-            "schema",
-            &self.schema,
-            SESSION_SCHEMA,
-        )?;
+        require(self.schema == SESSION_SCHEMA, "schema", &self.schema, SESSION_SCHEMA)?;
         let is_code_letter = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         require(
-            (1..=CODE_LENGTH_MAX).contains(&self.participant.len())
-                && self.participant.chars().all(is_code_letter),
+            (1..=CODE_LENGTH_MAX).contains(&self.participant.len()) && self.participant.chars().all(is_code_letter),
             "participant",
             format!("{:?}", self.participant),
             "a code of 1 to 16 letters, digits, - and _",
@@ -138,19 +126,12 @@ impl SessionHeader {
 
 impl Display {
     fn check(&self) -> Result<(), Error> {
-        let positive = |field, value: f64| {
-            require(
-                value.is_finite() && value > 0.0,
-                field,
-                value,
-                "a finite number above 0",
-            )
-        };
+        let positive =
+            |field, value: f64| require(value.is_finite() && value > 0.0, field, value, "a finite number above 0");
         positive("display.width_px", self.width_px.into())?;
         positive("display.height_px", self.height_px.into())?;
         positive("display.scale_factor", self.scale_factor)?;
-        self.px_per_degree
-            .map_or(Ok(()), |value| positive("display.px_per_degree", value))?;
+        self.px_per_degree.map_or(Ok(()), |value| positive("display.px_per_degree", value))?;
         let Some(luminance) = self.luminance else {
             return Ok(());
         };
@@ -160,10 +141,7 @@ impl Display {
                 && luminance.black_cd_m2 >= 0.0
                 && luminance.black_cd_m2 < luminance.white_cd_m2,
             "display.luminance",
-            format!(
-                "{} to {} cd/m2",
-                luminance.black_cd_m2, luminance.white_cd_m2
-            ),
+            format!("{} to {} cd/m2", luminance.black_cd_m2, luminance.white_cd_m2),
             "0 or more for black and a larger finite number for white",
         )
     }

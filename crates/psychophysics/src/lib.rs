@@ -17,20 +17,12 @@
 //! psychometric function wants it. A response of 1 means "correct".
 //!
 //! ```
-//! use scumble_psychophysics::{Experiment, ObserverParameters, Protocol, Stage, WeibullObserver};
+//! use scumble_psychophysics::{Experiment, ObserverParameters, Protocol, WeibullObserver, rehearse};
 //!
 //! let person = WeibullObserver::new(ObserverParameters::default(), 1)?;
 //! let mut experiment = Experiment::new(Protocol::two_alternative(), 2)?;
-//! let mut events = Vec::new();
-//! while *experiment.stage() != Stage::Finished {
-//!     match experiment.stage().trial().copied() {
-//!         Some(trial) => {
-//!             let side = person.answer(&trial);
-//!             events.push(experiment.answer(side, person.response_time_secs(&trial))?);
-//!         }
-//!         None => experiment.proceed()?,
-//!     }
-//! }
+//! let events = rehearse(&mut experiment, &person)?;
+//! assert_eq!(events.len(), 8 + experiment.progress().trials as usize);
 //! assert!(experiment.tracks().iter().all(|track| track.trials() >= 10));
 //! # Ok::<(), scumble_psychophysics::Error>(())
 //! ```
@@ -53,6 +45,7 @@ mod quest;
 mod quest_config;
 mod read;
 mod record;
+mod rehearse;
 mod replay;
 mod schedule;
 mod summary;
@@ -72,6 +65,7 @@ pub use quest::{Placement, Quest};
 pub use quest_config::QuestConfig;
 pub use read::{Session, read_session};
 pub use record::{EVENTS_FILE, HEADER_FILE, SessionWriter};
+pub use rehearse::rehearse;
 pub use summary::QuestSummary;
 pub use track::{Estimate, Track};
 pub use trial::{Condition, Side, Trial};

@@ -59,12 +59,7 @@ impl ObserverParameters {
             ("half_contrast_factor", self.half_contrast_factor),
         ];
         for (field, value) in positive {
-            require(
-                value.is_finite() && value > 0.0,
-                field,
-                value,
-                "a finite number above 0",
-            )?;
+            require(value.is_finite() && value > 0.0, field, value, "a finite number above 0")?;
         }
         self.psychometric().check()
     }
@@ -82,8 +77,7 @@ impl ObserverParameters {
     /// Probability that the person names the line in this trial.
     pub fn probability_correct(&self, trial: &Trial) -> f64 {
         let threshold = -self.threshold_ratio(&trial.condition).log10();
-        self.psychometric()
-            .probability(trial.intensity() - threshold)
+        self.psychometric().probability(trial.intensity() - threshold)
     }
 
     fn psychometric(&self) -> Psychometric {
@@ -118,11 +112,7 @@ impl WeibullObserver {
     /// The side that the person names as the line; the same for the same trial.
     pub fn answer(&self, trial: &Trial) -> Side {
         let right = self.draw(trial).unit() < self.parameters.probability_correct(trial);
-        if right {
-            trial.line_side
-        } else {
-            trial.line_side.other()
-        }
+        if right { trial.line_side } else { trial.line_side.other() }
     }
 
     /// A response time: log-normal, median 2 s, SD 0.15 log10, at random with respect to the trial.
@@ -133,11 +123,7 @@ impl WeibullObserver {
     }
 
     fn draw(&self, trial: &Trial) -> Draw {
-        let purpose = if trial.round == 0 {
-            Purpose::PracticeAnswer
-        } else {
-            Purpose::Answer
-        };
+        let purpose = if trial.round == 0 { Purpose::PracticeAnswer } else { Purpose::Answer };
         Draw::new(self.seed, purpose, trial.number)
     }
 }

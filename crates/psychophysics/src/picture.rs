@@ -19,12 +19,7 @@ pub(crate) struct Place {
 }
 
 /// The trial at `place` with the radius asked for and the radius shown.
-pub(crate) fn draw_trial(
-    place: Place,
-    condition: Condition,
-    placement_radius_px: f64,
-    radius_px: f64,
-) -> Trial {
+pub(crate) fn draw_trial(place: Place, condition: Condition, placement_radius_px: f64, radius_px: f64) -> Trial {
     let mut draw = Draw::new(place.seed, place.purpose, place.number);
     let line_side = if draw.coin() { Side::Left } else { Side::Right };
     let line = Stimulus {
@@ -38,11 +33,7 @@ pub(crate) fn draw_trial(
         inverted: draw.coin(),
         dither_seed: Some(draw.bits32().into()),
     };
-    let artifact = Stimulus {
-        shape: Shape::Artifact,
-        dither_seed: Some(draw.bits32().into()),
-        ..line
-    };
+    let artifact = Stimulus { shape: Shape::Artifact, dither_seed: Some(draw.bits32().into()), ..line };
     let (left, right) = match line_side {
         Side::Left => (line, artifact),
         Side::Right => (artifact, line),

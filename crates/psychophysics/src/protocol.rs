@@ -84,7 +84,8 @@ impl Protocol {
     /// three interleaved QUESTs, at least 10 trials each, threshold probability 0.82, gamma 0.5,
     /// delta 0.01, beta 3.5. Deviations: two pictures instead of the question "Is the original
     /// image a line?", and a prior of 3 texels with SD 0.6 log10, as the published one has no unit.
-    /// At most 28 trials a QUEST keep the session near 25 minutes at 4.5 s a trial.
+    /// At most 28 trials a QUEST: simulated people need 240 of the 336 trials, near 25 minutes at
+    /// 5 s a trial with practice and rests.
     pub fn two_alternative() -> Self {
         Self {
             name: "two-alternative".into(),
@@ -106,11 +107,7 @@ impl Protocol {
             trials_min: 10,
             trials_max: 28,
             convergence: Convergence::default(),
-            practice: Practice {
-                ratios: vec![0.5, 0.5, 1.0, 1.0, 1.5, 1.5, 2.0, 2.0],
-                texel_px: 20.0,
-                contrast: 1.0,
-            },
+            practice: Practice { ratios: vec![0.5, 0.5, 1.0, 1.0, 1.5, 1.5, 2.0, 2.0], texel_px: 20.0, contrast: 1.0 },
         }
     }
 
@@ -159,20 +156,13 @@ impl Protocol {
 
     /// Pattern and contrast of each round, before their order is drawn.
     pub fn rounds(&self) -> Vec<(Pattern, f64)> {
-        self.patterns
-            .iter()
-            .flat_map(|pattern| self.contrasts.iter().map(|contrast| (*pattern, *contrast)))
-            .collect()
+        self.patterns.iter().flat_map(|pattern| self.contrasts.iter().map(|contrast| (*pattern, *contrast))).collect()
     }
 
     /// What each QUEST measures, round after round, before their order is drawn.
     pub fn conditions(&self) -> Vec<Condition> {
         let of_round = |(pattern, contrast)| {
-            self.texels_px.iter().map(move |texel_px| Condition {
-                pattern,
-                contrast,
-                texel_px: *texel_px,
-            })
+            self.texels_px.iter().map(move |texel_px| Condition { pattern, contrast, texel_px: *texel_px })
         };
         self.rounds().into_iter().flat_map(of_round).collect()
     }
@@ -197,35 +187,19 @@ impl Protocol {
             require(length > 0, field, "empty", "at least one value")?;
         }
         for contrast in self.contrasts.iter().chain([&self.practice.contrast]) {
-            require(
-                *contrast > 0.0 && *contrast <= 1.0,
-                "contrast",
-                contrast,
-                "above 0 to 1",
-            )?;
+            require(*contrast > 0.0 && *contrast <= 1.0, "contrast", contrast, "above 0 to 1")?;
         }
         for ratio in &self.practice.ratios {
-            require(
-                ratio.is_finite() && *ratio > 0.0,
-                "practice.ratios",
-                ratio,
-                "finite numbers of texels above 0",
-            )?;
+            require(ratio.is_finite() && *ratio > 0.0, "practice.ratios", ratio, "finite numbers of texels above 0")?;
         }
         Ok(())
     }
 
     fn check_pictures(&self) -> Result<(), Error> {
-        for (field, side_px) in [
-            ("picture_width_px", self.picture_width_px),
-            ("picture_height_px", self.picture_height_px),
-        ] {
-            require(
-                (1..=scumble_stimuli::MAX_SIDE_PX).contains(&side_px),
-                field,
-                side_px,
-                "1 to 16384 pixels",
-            )?;
+        for (field, side_px) in
+            [("picture_width_px", self.picture_width_px), ("picture_height_px", self.picture_height_px)]
+        {
+            require((1..=scumble_stimuli::MAX_SIDE_PX).contains(&side_px), field, side_px, "1 to 16384 pixels")?;
         }
         require(
             self.radius_min_px.is_finite() && self.radius_min_px > 0.0,

@@ -29,27 +29,11 @@ pub struct Psychometric {
 impl Psychometric {
     /// Refuses parameters outside their ranges and a threshold probability that the curve misses.
     pub fn check(&self) -> Result<(), Error> {
+        require(self.beta.is_finite() && self.beta > 0.0, "beta", self.beta, "a finite slope above 0")?;
+        require((0.0..1.0).contains(&self.delta), "delta", self.delta, "0 to below 1")?;
+        require((0.0..1.0).contains(&self.gamma), "gamma", self.gamma, "0 to below 1")?;
         require(
-            self.beta.is_finite() && self.beta > 0.0,
-            "beta",
-            self.beta,
-            "a finite slope above 0",
-        )?;
-        require(
-            (0.0..1.0).contains(&self.delta),
-            "delta",
-            self.delta,
-            "0 to below 1",
-        )?;
-        require(
-            (0.0..1.0).contains(&self.gamma),
-            "gamma",
-            self.gamma,
-            "0 to below 1",
-        )?;
-        require(
-            self.threshold_probability > self.floor()
-                && self.threshold_probability < self.ceiling(),
+            self.threshold_probability > self.floor() && self.threshold_probability < self.ceiling(),
             "threshold probability",
             self.threshold_probability,
             "strictly between gamma and 1 - delta (1 - gamma), the ends of the psychometric function",
@@ -90,12 +74,7 @@ impl Psychometric {
 mod tests {
     use super::*;
 
-    const KREUZER: Psychometric = Psychometric {
-        beta: 3.5,
-        delta: 0.01,
-        gamma: 0.5,
-        threshold_probability: 0.82,
-    };
+    const KREUZER: Psychometric = Psychometric { beta: 3.5, delta: 0.01, gamma: 0.5, threshold_probability: 0.82 };
 
     #[test]
     fn the_closed_form_shift_is_the_published_one() {
@@ -112,25 +91,14 @@ mod tests {
     fn the_curve_rises_from_guessing_to_one_less_the_slips() {
         assert!((KREUZER.probability(-9.0) - 0.5).abs() < 1e-14);
         assert!((KREUZER.probability(9.0) - 0.995).abs() < 1e-14);
-        let values: Vec<f64> = (-100..=100)
-            .map(|i| KREUZER.probability(f64::from(i) * 0.01))
-            .collect();
+        let values: Vec<f64> = (-100..=100).map(|i| KREUZER.probability(f64::from(i) * 0.01)).collect();
         assert!(values.windows(2).all(|pair| pair[0] <= pair[1]));
     }
 
     #[test]
     fn a_threshold_probability_that_guessing_reaches_is_refused() {
-        let at_floor = Psychometric {
-            threshold_probability: 0.5,
-            ..KREUZER
-        };
-        assert!(
-            at_floor
-                .check()
-                .unwrap_err()
-                .to_string()
-                .contains("threshold probability is 0.5")
-        );
+        let at_floor = Psychometric { threshold_probability: 0.5, ..KREUZER };
+        assert!(at_floor.check().unwrap_err().to_string().contains("threshold probability is 0.5"));
         for beta in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert!(Psychometric { beta, ..KREUZER }.check().is_err());
         }

@@ -50,27 +50,17 @@ impl Quest {
         let half = config.half_points();
         let offset = |i: usize, centre: usize| (i as f64 - centre as f64) * config.grain;
 
-        let mut posterior: Vec<f64> = (0..=2 * half)
-            .map(|i| (-0.5 * (offset(i, half) / config.t_guess_sd).powi(2)).exp())
-            .collect();
+        let mut posterior: Vec<f64> =
+            (0..=2 * half).map(|i| (-0.5 * (offset(i, half) / config.t_guess_sd).powi(2)).exp()).collect();
         let total: f64 = posterior.iter().sum();
         posterior.iter_mut().for_each(|value| *value /= total);
 
         let psychometric = config.psychometric();
         let offsets: Vec<f64> = (0..=4 * half).map(|i| offset(i, 2 * half)).collect();
         let x_threshold = tabulated_x_threshold(&psychometric, &offsets)?;
-        let success: Vec<f64> = offsets
-            .iter()
-            .map(|x| psychometric.unshifted(x + x_threshold))
-            .collect();
+        let success: Vec<f64> = offsets.iter().map(|x| psychometric.unshifted(x + x_threshold)).collect();
         let quantile_order = quantile_order(success[0], success[success.len() - 1]);
-        Ok(Self {
-            config,
-            posterior,
-            success,
-            x_threshold,
-            quantile_order,
-        })
+        Ok(Self { config, posterior, success, x_threshold, quantile_order })
     }
 
     /// Multiplies the posterior by the likelihood of `response` at the intensity that was *shown*,
@@ -90,26 +80,15 @@ impl Quest {
             let success = self.success[first - i];
             if response { success } else { 1.0 - success }
         };
-        let mut posterior: Vec<f64> = self
-            .posterior
-            .iter()
-            .enumerate()
-            .map(|(i, prior)| prior * likelihood(i))
-            .collect();
+        let mut posterior: Vec<f64> =
+            self.posterior.iter().enumerate().map(|(i, prior)| prior * likelihood(i)).collect();
         let total: f64 = posterior.iter().sum();
         if total.is_nan() || total <= 0.0 {
-            return Err(Error::ImpossibleResponse {
-                intensity,
-                response,
-            });
+            return Err(Error::ImpossibleResponse { intensity, response });
         }
         posterior.iter_mut().for_each(|value| *value /= total);
         self.posterior = posterior;
-        Ok(if shift == steps {
-            Placement::OnTable
-        } else {
-            Placement::OffTable
-        })
+        Ok(if shift == steps { Placement::OnTable } else { Placement::OffTable })
     }
 
     /// Mean of the posterior.
@@ -131,12 +110,8 @@ impl Quest {
     /// Standard deviation of the posterior.
     pub fn sd(&self) -> f64 {
         let mean = self.mean_offset();
-        let variance: f64 = self
-            .posterior
-            .iter()
-            .enumerate()
-            .map(|(i, weight)| weight * (self.offset(i) - mean).powi(2))
-            .sum();
+        let variance: f64 =
+            self.posterior.iter().enumerate().map(|(i, weight)| weight * (self.offset(i) - mean).powi(2)).sum();
         variance.sqrt()
     }
 
@@ -199,11 +174,7 @@ impl Quest {
     }
 
     fn mean_offset(&self) -> f64 {
-        self.posterior
-            .iter()
-            .enumerate()
-            .map(|(i, weight)| weight * self.offset(i))
-            .sum()
+        self.posterior.iter().enumerate().map(|(i, weight)| weight * self.offset(i)).sum()
     }
 }
 
@@ -232,8 +203,7 @@ fn quantile_order(p_low: f64, p_high: f64) -> f64 {
     // Keeps the logarithms finite at probabilities 0 and 1, as in the source.
     const TINY: f64 = 1e-14;
     let entropy = (p_high * (p_high + TINY).ln() - p_low * (p_low + TINY).ln())
-        + ((1.0 - p_high + TINY) * (1.0 - p_high + TINY).ln()
-            - (1.0 - p_low + TINY) * (1.0 - p_low + TINY).ln());
+        + ((1.0 - p_high + TINY) * (1.0 - p_high + TINY).ln() - (1.0 - p_low + TINY) * (1.0 - p_low + TINY).ln());
     let best = 1.0 / (1.0 + (entropy / (p_low - p_high)).exp());
     (best - p_low) / (p_high - p_low)
 }

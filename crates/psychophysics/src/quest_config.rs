@@ -34,24 +34,10 @@ pub struct QuestConfig {
 impl QuestConfig {
     /// Refuses parameters outside their ranges; the error names the parameter.
     pub fn check(&self) -> Result<(), Error> {
-        require(
-            self.t_guess.is_finite(),
-            "tGuess",
-            self.t_guess,
-            "a finite number",
-        )?;
-        let positive = [
-            ("tGuessSd", self.t_guess_sd),
-            ("grain", self.grain),
-            ("range", self.range),
-        ];
+        require(self.t_guess.is_finite(), "tGuess", self.t_guess, "a finite number")?;
+        let positive = [("tGuessSd", self.t_guess_sd), ("grain", self.grain), ("range", self.range)];
         for (field, value) in positive {
-            require(
-                value.is_finite() && value > 0.0,
-                field,
-                value,
-                "a finite number above 0",
-            )?;
+            require(value.is_finite() && value > 0.0, field, value, "a finite number above 0")?;
         }
         require(
             self.range / self.grain <= TABLE_POINTS_MAX,
@@ -64,12 +50,7 @@ impl QuestConfig {
 
     /// The psychometric function of these parameters.
     pub fn psychometric(&self) -> Psychometric {
-        Psychometric {
-            beta: self.beta,
-            delta: self.delta,
-            gamma: self.gamma,
-            threshold_probability: self.p_threshold,
-        }
+        Psychometric { beta: self.beta, delta: self.delta, gamma: self.gamma, threshold_probability: self.p_threshold }
     }
 
     /// Table points on either side of `t_guess`: half of `range / grain`, rounded up.
@@ -178,55 +159,13 @@ mod tests {
     fn numbers_out_of_range_are_refused_by_name() {
         let config: QuestConfig = serde_json::from_str(JSON).unwrap();
         let broken = [
-            (
-                "tGuess ",
-                QuestConfig {
-                    t_guess: f64::NAN,
-                    ..config
-                },
-            ),
-            (
-                "tGuessSd",
-                QuestConfig {
-                    t_guess_sd: 0.0,
-                    ..config
-                },
-            ),
-            (
-                "grain",
-                QuestConfig {
-                    grain: -0.01,
-                    ..config
-                },
-            ),
-            (
-                "range",
-                QuestConfig {
-                    range: f64::INFINITY,
-                    ..config
-                },
-            ),
-            (
-                "range / grain",
-                QuestConfig {
-                    grain: 1e-9,
-                    ..config
-                },
-            ),
-            (
-                "gamma",
-                QuestConfig {
-                    gamma: 1.0,
-                    ..config
-                },
-            ),
-            (
-                "delta",
-                QuestConfig {
-                    delta: -0.1,
-                    ..config
-                },
-            ),
+            ("tGuess ", QuestConfig { t_guess: f64::NAN, ..config }),
+            ("tGuessSd", QuestConfig { t_guess_sd: 0.0, ..config }),
+            ("grain", QuestConfig { grain: -0.01, ..config }),
+            ("range", QuestConfig { range: f64::INFINITY, ..config }),
+            ("range / grain", QuestConfig { grain: 1e-9, ..config }),
+            ("gamma", QuestConfig { gamma: 1.0, ..config }),
+            ("delta", QuestConfig { delta: -0.1, ..config }),
         ];
         for (name, config) in broken {
             let message = config.check().unwrap_err().to_string();

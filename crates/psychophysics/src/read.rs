@@ -28,13 +28,16 @@ pub struct Session {
 /// Reads a session and checks each event by itself and its place in the numbering;
 /// [`Session::replay`] checks it against the seed.
 pub fn read_session(directory: &Path) -> Result<Session, Error> {
-    let header = read_header(&directory.join(HEADER_FILE))?;
     let path = directory.join(EVENTS_FILE);
     let bytes = std::fs::read(&path).map_err(Error::io(&path))?;
-    let whole = bytes
-        .iter()
-        .rposition(|byte| *byte == b'\n')
-        .map_or(0, |last| last + 1);
+    parse_session(directory, &bytes)
+}
+
+/// The session of a directory whose events are `bytes`.
+pub(crate) fn parse_session(directory: &Path, bytes: &[u8]) -> Result<Session, Error> {
+    let header = read_header(&directory.join(HEADER_FILE))?;
+    let path = directory.join(EVENTS_FILE);
+    let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
     let (lines, tail) = bytes.split_at(whole);
 
     let mut reader = LineReader::new(&path);
@@ -51,13 +54,7 @@ pub fn read_session(directory: &Path) -> Result<Session, Error> {
             String::from_utf8_lossy(tail)
         ));
     }
-    Ok(Session {
-        directory: directory.into(),
-        header,
-        events: reader.events,
-        notices,
-        whole_lines_bytes: whole as u64,
-    })
+    Ok(Session { directory: directory.into(), header, events: reader.events, notices, whole_lines_bytes: whole as u64 })
 }
 
 impl Session {
@@ -66,11 +63,7 @@ impl Session {
     /// Errors name the line whose event the seed and the protocol do not lead to.
     pub fn replay(&self) -> Result<Experiment, Error> {
         Experiment::resume(&self.header, &self.events).map_err(|error| match error {
-            Error::Replay {
-                index,
-                found,
-                allowed,
-            } => Error::Damaged {
+            Error::Replay { index, found, allowed } => Error::Damaged {
                 path: self.directory.join(EVENTS_FILE),
                 line: index + 1,
                 found,
@@ -101,9 +94,7 @@ fn read_header(path: &Path) -> Result<SessionHeader, Error> {
     };
     let header: SessionHeader =
         serde_json::from_str(&text).map_err(|error| damaged(error.line(), error.to_string()))?;
-    header
-        .check()
-        .map_err(|error| damaged(1, error.to_string()))?;
+    header.check().map_err(|error| damaged(1, error.to_string()))?;
     Ok(header)
 }
 
@@ -117,21 +108,12 @@ struct LineReader<'a> {
 
 impl<'a> LineReader<'a> {
     fn new(path: &'a Path) -> Self {
-        Self {
-            path,
-            events: Vec::new(),
-            practised: 0,
-            answered: 0,
-        }
+        Self { path, events: Vec::new(), practised: 0, answered: 0 }
     }
 
     fn read(&mut self, line: &[u8]) -> Result<(), Error> {
-        let event: Event = serde_json::from_slice(line).map_err(|error| {
-            self.damaged(
-                error.to_string(),
-                "one event, as JSON, with all of its fields",
-            )
-        })?;
+        let event: Event = serde_json::from_slice(line)
+            .map_err(|error| self.damaged(error.to_string(), "one event, as JSON, with all of its fields"))?;
         if let Some(Event::End(_)) = self.events.last() {
             return Err(self.damaged("an event after the end", "nothing"));
         }

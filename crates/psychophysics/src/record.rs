@@ -5,13 +5,13 @@
 //! directory that holds a session. One program writes a session at a time (a lock on the file).
 
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{Seek, SeekFrom, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 use crate::event::Event;
 use crate::header::SessionHeader;
-use crate::read::{Session, read_session};
+use crate::read::{Session, parse_session};
 
 /// Name of the header's file.
 pub const HEADER_FILE: &str = "session.json";
@@ -41,18 +41,14 @@ impl SessionWriter {
         }
 
         let mut header_file = create_new(directory, &header_path)?;
-        let mut json = serde_json::to_vec_pretty(header)
-            .map_err(|error| Error::io(&header_path)(error.into()))?;
+        let mut json = serde_json::to_vec_pretty(header).map_err(|error| Error::io(&header_path)(error.into()))?;
         json.push(b'\n');
-        header_file
-            .write_all(&json)
-            .and_then(|()| header_file.sync_all())
-            .map_err(Error::io(&header_path))?;
+        header_file.write_all(&json).and_then(|()| header_file.sync_all()).map_err(Error::io(&header_path))?;
 
         let file = create_new(directory, &path)?;
         file.sync_all().map_err(Error::io(&path))?;
         sync_directory(directory)?;
-        Self::lock(directory, path, file, 0)
+        Self::lock(directory, path, file)
     }
 
     /// Opens an interrupted session to go on with it, and gives what it holds.
@@ -62,13 +58,12 @@ impl SessionWriter {
     /// the notice quotes it.
     pub fn reopen(directory: &Path) -> Result<(Self, Session), Error> {
         let path = directory.join(EVENTS_FILE);
-        let file = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .open(&path)
-            .map_err(Error::io(&path))?;
-        let mut writer = Self::lock(directory, path, file, 0)?;
-        let session = read_session(directory)?;
+        let file = OpenOptions::new().read(true).write(true).open(&path).map_err(Error::io(&path))?;
+        let mut writer = Self::lock(directory, path, file)?;
+        // Read through the locked handle: on some systems the lock keeps every other one out.
+        let mut bytes = Vec::new();
+        writer.file.read_to_end(&mut bytes).map_err(Error::io(&writer.path))?;
+        let session = parse_session(directory, &bytes)?;
         session.replay()?;
         writer.length_bytes = session.whole_lines_bytes();
         writer.drop_tail().map_err(Error::io(&writer.path))?;
@@ -78,13 +73,9 @@ impl SessionWriter {
     /// Writes one event and waits until the disk has it. After an error the file ends with the
     /// last whole event, as far as the system allows.
     pub fn append(&mut self, event: &Event) -> Result<(), Error> {
-        let mut line =
-            serde_json::to_vec(event).map_err(|error| Error::io(&self.path)(error.into()))?;
+        let mut line = serde_json::to_vec(event).map_err(|error| Error::io(&self.path)(error.into()))?;
         line.push(b'\n');
-        let written = self
-            .file
-            .write_all(&line)
-            .and_then(|()| self.file.sync_data());
+        let written = self.file.write_all(&line).and_then(|()| self.file.sync_data());
         if let Err(error) = written {
             // The write's own error is the one to report; a tail that stays is dropped by a reader.
             let _ = self.drop_tail();
@@ -94,13 +85,9 @@ impl SessionWriter {
         Ok(())
     }
 
-    fn lock(directory: &Path, path: PathBuf, file: File, length_bytes: u64) -> Result<Self, Error> {
+    fn lock(directory: &Path, path: PathBuf, file: File) -> Result<Self, Error> {
         match file.try_lock() {
-            Ok(()) => Ok(Self {
-                path,
-                file,
-                length_bytes,
-            }),
+            Ok(()) => Ok(Self { path, file, length_bytes: 0 }),
             Err(TryLockError::WouldBlock) => Err(Error::SessionInUse(directory.into())),
             Err(TryLockError::Error(error)) => Err(Error::io(path)(error)),
         }
@@ -115,22 +102,16 @@ impl SessionWriter {
 }
 
 fn create_new(directory: &Path, path: &Path) -> Result<File, Error> {
-    OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(path)
-        .map_err(|error| match error.kind() {
-            std::io::ErrorKind::AlreadyExists => Error::SessionExists(directory.into()),
-            _ => Error::io(path)(error),
-        })
+    OpenOptions::new().write(true).create_new(true).open(path).map_err(|error| match error.kind() {
+        std::io::ErrorKind::AlreadyExists => Error::SessionExists(directory.into()),
+        _ => Error::io(path)(error),
+    })
 }
 
 /// Makes the names of new files durable, where directories can be synchronised.
 fn sync_directory(directory: &Path) -> Result<(), Error> {
     if cfg!(unix) {
-        File::open(directory)
-            .and_then(|directory| directory.sync_all())
-            .map_err(Error::io(directory))?;
+        File::open(directory).and_then(|directory| directory.sync_all()).map_err(Error::io(directory))?;
     }
     Ok(())
 }

@@ -35,16 +35,12 @@ impl Experiment {
     }
 
     fn replay(&mut self, index: usize, event: &Event, answered: &Answered) -> Result<(), Error> {
-        while matches!(
-            self.stage(),
-            Stage::Instructions | Stage::Feedback { .. } | Stage::Break { .. }
-        ) {
+        while matches!(self.stage(), Stage::Instructions | Stage::Feedback { .. } | Stage::Break { .. }) {
             self.proceed()?;
         }
         let recorded = &answered.trial;
         let expected = match (self.stage(), event) {
-            (Stage::Practice(expected), Event::Practice(_))
-            | (Stage::Trial(expected), Event::Trial(_)) => expected,
+            (Stage::Practice(expected), Event::Practice(_)) | (Stage::Trial(expected), Event::Trial(_)) => expected,
             (stage, Event::Practice(_)) => {
                 return Err(differs(index, "practice", stage.name()));
             }
@@ -54,23 +50,14 @@ impl Experiment {
             return Err(differs(index, describe(recorded), describe(expected)));
         }
         if answered.correct != recorded.is_correct(answered.answer) {
-            return Err(differs(
-                index,
-                format!("correct {}", answered.correct),
-                format!("{}", !answered.correct),
-            ));
+            return Err(differs(index, format!("correct {}", answered.correct), format!("{}", !answered.correct)));
         }
-        self.answer_shown(*recorded, answered.answer, answered.response_time_secs)
-            .map(|_| ())
+        self.answer_shown(*recorded, answered.answer, answered.response_time_secs).map(|_| ())
     }
 }
 
 fn differs(index: usize, found: impl Into<String>, allowed: impl Into<String>) -> Error {
-    Error::Replay {
-        index,
-        found: found.into(),
-        allowed: allowed.into(),
-    }
+    Error::Replay { index, found: found.into(), allowed: allowed.into() }
 }
 
 /// Equality but for the last digits of the radii.

@@ -26,18 +26,9 @@ impl Schedule {
         let tracks_per_round = protocol.texels_px.len();
         let mut rounds: Vec<_> = conditions.chunks(tracks_per_round).collect();
         Draw::new(seed, Purpose::Rounds, 0).shuffle(&mut rounds);
-        let tracks = rounds
-            .concat()
-            .into_iter()
-            .map(|condition| Track::new(protocol, condition))
-            .collect::<Result<_, _>>()?;
-        Ok(Self {
-            seed,
-            tracks,
-            tracks_per_round,
-            round: 0,
-            cycle: Vec::new(),
-        })
+        let tracks =
+            rounds.concat().into_iter().map(|condition| Track::new(protocol, condition)).collect::<Result<_, _>>()?;
+        Ok(Self { seed, tracks, tracks_per_round, round: 0, cycle: Vec::new() })
     }
 
     /// The QUEST that trial `number` asks; `None` when the round is over.

@@ -42,12 +42,7 @@ impl QuestSummary {
         let mut rows = vec![Self::of(&quest, 0, None, Placement::OnTable)];
         for ((intensity, response), trial) in responses.iter().zip(1..) {
             let placement = quest.update(*intensity, *response)?;
-            rows.push(Self::of(
-                &quest,
-                trial,
-                Some((*intensity, *response)),
-                placement,
-            ));
+            rows.push(Self::of(&quest, trial, Some((*intensity, *response)), placement));
         }
         Ok(rows)
     }

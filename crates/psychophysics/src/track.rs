@@ -12,6 +12,7 @@ use crate::trial::{Condition, Trial};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     condition: Condition,
+    prior: Quest,
     quest: Quest,
     responses: Vec<(f64, bool)>,
     verdict: Verdict,
@@ -32,18 +33,9 @@ pub struct Estimate {
 impl Track {
     /// A QUEST at its prior.
     pub(crate) fn new(protocol: &Protocol, condition: Condition) -> Result<Self, Error> {
-        let quest = Quest::new(protocol.quest_config())?;
-        let verdict =
-            protocol
-                .convergence
-                .judge(&quest, &[], intensity_range(protocol, &condition))?;
-        Ok(Self {
-            condition,
-            quest,
-            responses: Vec::new(),
-            verdict,
-            done: false,
-        })
+        let prior = Quest::new(protocol.quest_config())?;
+        let verdict = protocol.convergence.judge(&prior, &prior, &[], intensity_range(protocol, &condition))?;
+        Ok(Self { condition, quest: prior.clone(), prior, responses: Vec::new(), verdict, done: false })
     }
 
     /// Radius that QUEST asks for, and that radius clamped to what the picture can show.
@@ -55,21 +47,13 @@ impl Track {
     }
 
     /// Takes a response to `trial`, at the radius that was shown.
-    pub(crate) fn respond(
-        &mut self,
-        protocol: &Protocol,
-        trial: &Trial,
-        correct: bool,
-    ) -> Result<(), Error> {
+    pub(crate) fn respond(&mut self, protocol: &Protocol, trial: &Trial, correct: bool) -> Result<(), Error> {
         self.quest.update(trial.intensity(), correct)?;
         self.responses.push((trial.intensity(), correct));
         let range = intensity_range(protocol, &self.condition);
-        self.verdict = protocol
-            .convergence
-            .judge(&self.quest, &self.responses, range)?;
+        self.verdict = protocol.convergence.judge(&self.prior, &self.quest, &self.responses, range)?;
         let trials = self.trials();
-        self.done = trials >= protocol.trials_max
-            || (trials >= protocol.trials_min && self.verdict.is_converged());
+        self.done = trials >= protocol.trials_max || (trials >= protocol.trials_min && self.verdict.is_converged());
         Ok(())
     }
 
@@ -108,10 +92,7 @@ impl Track {
         let ratio = |intensity: f64| 10f64.powf(-intensity);
         Estimate {
             ratio: ratio(self.quest.mean()),
-            ratio_interval90: (
-                ratio(self.quest.quantile(0.95)),
-                ratio(self.quest.quantile(0.05)),
-            ),
+            ratio_interval90: (ratio(self.quest.quantile(0.95)), ratio(self.quest.quantile(0.05))),
             sd_log10: self.quest.sd(),
         }
     }
@@ -120,8 +101,5 @@ impl Track {
 /// Intensities of the largest and the smallest radius that can be shown.
 fn intensity_range(protocol: &Protocol, condition: &Condition) -> (f64, f64) {
     let (smallest_px, largest_px) = protocol.radius_range_px(condition.texel_px);
-    (
-        (condition.texel_px / largest_px).log10(),
-        (condition.texel_px / smallest_px).log10(),
-    )
+    ((condition.texel_px / largest_px).log10(), (condition.texel_px / smallest_px).log10())
 }

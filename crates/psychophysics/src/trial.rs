@@ -91,11 +91,7 @@ impl Trial {
         if line.shape != Shape::Line || artifact.shape != Shape::Artifact {
             return Some("line_side that is not the side of the line".into());
         }
-        let twin = Stimulus {
-            shape: Shape::Line,
-            dither_seed: line.dither_seed,
-            ..artifact
-        };
+        let twin = Stimulus { shape: Shape::Line, dither_seed: line.dither_seed, ..artifact };
         if twin != line {
             return Some("two pictures that differ in more than shape and dithering".into());
         }

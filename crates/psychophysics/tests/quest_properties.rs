@@ -63,13 +63,7 @@ fn an_intensity_off_the_table_counts_as_the_tables_end_and_is_reported() {
 
 #[test]
 fn an_impossible_response_is_refused_and_changes_nothing() {
-    let sure = QuestConfig {
-        delta: 0.0,
-        gamma: 0.0,
-        p_threshold: 0.5,
-        beta: 1e3,
-        ..config()
-    };
+    let sure = QuestConfig { delta: 0.0, gamma: 0.0, p_threshold: 0.5, beta: 1e3, ..config() };
     let mut quest = Quest::new(sure).unwrap();
     quest.update(sure.t_guess - 2.5, true).unwrap();
     let before = quest.clone();
@@ -105,13 +99,9 @@ fn the_posterior_is_bayes_rule_with_the_closed_form_likelihood() {
     // On a table point, so that nothing is rounded.
     let intensity = config().t_guess + 0.3;
     quest.update(intensity, false).unwrap();
-    let likelihood =
-        |threshold: f64| 1.0 - config().psychometric().probability(intensity - threshold);
-    let expected: Vec<f64> = prior()
-        .thresholds()
-        .zip(prior().posterior())
-        .map(|(threshold, prior)| prior * likelihood(threshold))
-        .collect();
+    let likelihood = |threshold: f64| 1.0 - config().psychometric().probability(intensity - threshold);
+    let expected: Vec<f64> =
+        prior().thresholds().zip(prior().posterior()).map(|(threshold, prior)| prior * likelihood(threshold)).collect();
     let total: f64 = expected.iter().sum();
     for (found, expected) in quest.posterior().iter().zip(expected) {
         // The tabulated x_threshold is 4e-6 off the closed form, beta ln 10 = 8 times that in p.

@@ -19,9 +19,7 @@ struct Meta {
 type Row = BTreeMap<String, f64>;
 
 fn data(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data")
-        .join(name)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
 }
 
 fn meta() -> Meta {
@@ -69,10 +67,7 @@ fn columns(summary: &QuestSummary, quest: &Quest) -> Row {
 }
 
 fn responses(rows: &[Row]) -> Vec<(f64, bool)> {
-    rows.iter()
-        .skip(1)
-        .map(|row| (row["intensity"], row["response"] == 1.0))
-        .collect()
+    rows.iter().skip(1).map(|row| (row["intensity"], row["response"] == 1.0)).collect()
 }
 
 /// Cells of the table that the summaries miss by more than the tolerance, and the cells compared.
@@ -84,9 +79,7 @@ fn compare(expected: &[Row], found: &[Row]) -> (Vec<String>, usize) {
         for (name, expected) in expected {
             let found = found[name];
             let both_empty = expected.is_nan() && found.is_nan();
-            if !both_empty && (found - expected).abs().is_nan()
-                || (found - expected).abs() > TOLERANCE
-            {
+            if !both_empty && (found - expected).abs().is_nan() || (found - expected).abs() > TOLERANCE {
                 misses.push(format!("{name}: {found} instead of {expected}"));
             }
             cells += 1;
@@ -186,18 +179,13 @@ fn a_shifted_configuration_gives_shifted_summaries() {
     let ratio3 = configs["log10_ratio3"];
     let rows = &table("quest_reference.csv")[&("log10_cv1".into(), "scripted".into())];
     let here = responses(rows);
-    let there: Vec<_> = here
-        .iter()
-        .map(|(x, response)| (x + 1.0, *response))
-        .collect();
+    let there: Vec<_> = here.iter().map(|(x, response)| (x + 1.0, *response)).collect();
     let here = QuestSummary::of_sequence(cv1, &here).unwrap();
     let there = QuestSummary::of_sequence(ratio3, &there).unwrap();
     for (here, there) in here.iter().zip(&there) {
-        for (here, there) in [
-            (here.mean, there.mean),
-            (here.mode, there.mode),
-            (here.next_quantile, there.next_quantile),
-        ] {
+        for (here, there) in
+            [(here.mean, there.mean), (here.mode, there.mode), (here.next_quantile, there.next_quantile)]
+        {
             assert!((there - here - 1.0).abs() < 1e-12);
         }
         assert!((there.sd - here.sd).abs() < 1e-12);

@@ -1,0 +1,22 @@
+//! A simulated person goes through what is left of a session.
+
+use crate::error::Error;
+use crate::event::Event;
+use crate::experiment::{Experiment, Stage};
+use crate::observer::WeibullObserver;
+
+/// Answers every trial until the session is finished, and gives the events in order.
+pub fn rehearse(experiment: &mut Experiment, observer: &WeibullObserver) -> Result<Vec<Event>, Error> {
+    let mut events = Vec::new();
+    while *experiment.stage() != Stage::Finished {
+        match experiment.stage().trial().copied() {
+            Some(trial) => {
+                let side = observer.answer(&trial);
+                let response_time_secs = observer.response_time_secs(&trial);
+                events.push(experiment.answer(side, response_time_secs)?);
+            }
+            None => experiment.proceed()?,
+        }
+    }
+    Ok(events)
+}

@@ -1,0 +1,69 @@
+//! The protocol: its file and what it refuses.
+
+use scumble_psychophysics::{Experiment, Protocol};
+
+#[test]
+fn a_protocol_survives_its_file() {
+    let protocol = Protocol::two_alternative();
+    let file = serde_json::to_string_pretty(&protocol).unwrap();
+    assert_eq!(serde_json::from_str::<Protocol>(&file).unwrap(), protocol);
+}
+
+#[test]
+fn a_name_on_the_command_line_gives_its_protocol_and_another_one_the_list() {
+    assert_eq!(Protocol::named("two-alternative").unwrap(), Protocol::two_alternative());
+    let error = Protocol::named("three-alternative").unwrap_err();
+    assert_eq!(error.to_string(), "protocol is three-alternative; allowed is two-alternative");
+}
+
+#[test]
+fn a_misspelt_key_is_refused_by_name() {
+    let file = serde_json::to_string(&Protocol::two_alternative()).unwrap();
+    let file = file.replace("trials_max", "trial_max");
+    let error = serde_json::from_str::<Protocol>(&file).unwrap_err();
+    assert!(error.to_string().contains("trial_max"));
+}
+
+#[test]
+fn quests_prior_is_three_texels_and_its_intensity_the_negative_logarithm_of_the_ratio() {
+    let config = Protocol::two_alternative().quest_config();
+    assert!((config.t_guess + 3f64.log10()).abs() < 1e-15);
+    assert_eq!(config.t_guess_sd, 0.6);
+}
+
+#[test]
+fn every_parameter_out_of_range_is_refused_by_name_before_a_session_starts() {
+    type Break = fn(&mut Protocol);
+    let broken: [(&str, Break); 20] = [
+        ("patterns", |p| p.patterns.clear()),
+        ("contrasts", |p| p.contrasts.clear()),
+        ("texels_px", |p| p.texels_px.clear()),
+        ("contrast", |p| p.contrasts[0] = 0.0),
+        ("contrast", |p| p.contrasts[0] = 1.5),
+        ("contrast", |p| p.practice.contrast = f64::NAN),
+        ("practice.ratios", |p| p.practice.ratios[0] = -1.0),
+        ("texel_px", |p| p.texels_px[0] = f64::NAN),
+        ("texel_px", |p| p.texels_px[0] = 240.0),
+        ("texel_px", |p| p.practice.texel_px = 0.0),
+        ("picture_width_px", |p| p.picture_width_px = 0),
+        ("picture_height_px", |p| p.picture_height_px = 100_000),
+        ("radius_min_px", |p| p.radius_min_px = 0.0),
+        ("trials_min to trials_max", |p| p.trials_min = 0),
+        ("trials_min to trials_max", |p| p.trials_max = 9),
+        ("prior_ratio", |p| p.prior_ratio = -3.0),
+        ("tGuessSd", |p| p.prior_sd_log10 = 0.0),
+        ("threshold probability", |p| p.threshold_probability = 0.4),
+        ("convergence.interval_width_log10", |p| {
+            p.convergence.interval_width_log10 = 0.0;
+        }),
+        ("convergence.edge_distance_log10", |p| {
+            p.convergence.edge_distance_log10 = f64::NAN;
+        }),
+    ];
+    for (name, break_it) in broken {
+        let mut protocol = Protocol::two_alternative();
+        break_it(&mut protocol);
+        let message = Experiment::new(protocol, 1).unwrap_err().to_string();
+        assert!(message.starts_with(&format!("{name} is")), "{name}: {message}");
+    }
+}

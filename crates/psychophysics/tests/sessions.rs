@@ -1,0 +1,239 @@
+//! Whole sessions through the state machine: what is shown, what is learned, what is refused.
+
+use scumble_psychophysics::{
+    Error, Event, Experiment, ObserverParameters, Protocol, Quest, Side, Stage, Trial, WeibullObserver, rehearse,
+};
+use scumble_stimuli::{Pattern, Shape, Stimulus};
+
+fn observer(seed: u64) -> WeibullObserver {
+    WeibullObserver::new(ObserverParameters::default(), seed).unwrap()
+}
+
+fn session(seed: u64) -> (Experiment, Vec<Event>) {
+    let mut experiment = Experiment::new(Protocol::two_alternative(), seed).unwrap();
+    let events = rehearse(&mut experiment, &observer(seed)).unwrap();
+    (experiment, events)
+}
+
+fn measured(events: &[Event]) -> Vec<Trial> {
+    let answered = events.iter().filter_map(Event::measured);
+    answered.map(|answered| answered.trial).collect()
+}
+
+fn at_first_trial(protocol: Protocol) -> Experiment {
+    let mut experiment = Experiment::new(protocol, 1).unwrap();
+    while !matches!(experiment.stage(), Stage::Trial(_)) {
+        match experiment.stage() {
+            Stage::Practice(_) => drop(experiment.answer(Side::Left, 1.0).unwrap()),
+            _ => experiment.proceed().unwrap(),
+        }
+    }
+    experiment
+}
+
+#[test]
+fn the_same_seed_gives_the_same_session_image_for_image() {
+    let (first, second) = (session(7).1, session(7).1);
+    assert_eq!(first, second);
+    for (a, b) in measured(&first).iter().zip(&measured(&second)).take(6) {
+        let pixels = |stimulus: &Stimulus| stimulus.render(96, 72).unwrap().into_raw();
+        assert_eq!(pixels(&a.left), pixels(&b.left));
+        assert_eq!(pixels(&a.right), pixels(&b.right));
+    }
+}
+
+#[test]
+fn another_seed_gives_another_session() {
+    let (a, b) = (measured(&session(1).1), measured(&session(2).1));
+    assert!(a.iter().zip(&b).all(|(a, b)| a.left.phase != b.left.phase));
+}
+
+#[test]
+fn a_session_has_four_rounds_of_three_sizes_and_each_size_ten_to_twenty_eight_trials() {
+    let (experiment, events) = session(3);
+    assert_eq!(experiment.tracks().len(), 12);
+    let conditions = experiment.protocol().conditions();
+    for track in experiment.tracks() {
+        assert!(conditions.contains(track.condition()));
+        assert!((10..=28).contains(&track.trials()) && track.is_done());
+        assert!(track.trials() == 28 || track.verdict().is_converged());
+    }
+    for (round, tracks) in (1..).zip(experiment.tracks().chunks(3)) {
+        let of_round = measured(&events).into_iter().filter(|t| t.round == round);
+        for trial in of_round {
+            assert_eq!(trial.condition.pattern, tracks[0].condition().pattern);
+            assert_eq!(trial.condition.contrast, tracks[0].condition().contrast);
+        }
+    }
+}
+
+#[test]
+fn every_order_of_the_rounds_occurs_first() {
+    let mut first_rounds: Vec<String> = (0..40)
+        .map(|seed| {
+            let experiment = Experiment::new(Protocol::two_alternative(), seed).unwrap();
+            let condition = experiment.tracks()[0].condition();
+            format!("{:?} {}", condition.pattern, condition.contrast)
+        })
+        .collect();
+    first_rounds.sort();
+    first_rounds.dedup();
+    assert_eq!(first_rounds.len(), 4);
+}
+
+#[test]
+fn the_sizes_of_a_round_never_run_apart_by_more_than_one_trial() {
+    let trials = measured(&session(5).1);
+    for round in 1..=4 {
+        let of_round: Vec<_> = trials.iter().filter(|trial| trial.round == round).collect();
+        // Until the tenth trial no QUEST may stop, so the first 30 trials are ten whole cycles.
+        for cycle in of_round[..30].chunks(3) {
+            let mut sizes: Vec<f64> = cycle.iter().map(|trial| trial.condition.texel_px).collect();
+            sizes.sort_by(f64::total_cmp);
+            assert_eq!(sizes, [5.0, 10.0, 20.0]);
+        }
+    }
+}
+
+#[test]
+fn the_two_pictures_differ_in_shape_and_dithering_alone() {
+    let (_, events) = session(4);
+    for trial in measured(&events) {
+        let (line, artifact) = match trial.line_side {
+            Side::Left => (trial.left, trial.right),
+            Side::Right => (trial.right, trial.left),
+        };
+        assert_eq!((line.shape, artifact.shape), (Shape::Line, Shape::Artifact));
+        assert_ne!(line.dither_seed, artifact.dither_seed);
+        let twin = Stimulus { shape: Shape::Line, dither_seed: line.dither_seed, ..artifact };
+        assert_eq!(line, twin);
+        assert_eq!(line.radius_px, trial.radius_px);
+    }
+}
+
+#[test]
+fn side_mirroring_and_polarity_are_fair_coins_and_phase_is_uniform() {
+    let trials: Vec<Trial> = (0..10).flat_map(|seed| measured(&session(seed).1)).collect();
+    let count = trials.len() as f64;
+    let share = |of: fn(&Trial) -> bool| trials.iter().filter(|t| of(t)).count() as f64 / count;
+    // Four standard errors of a share.
+    let slack = 4.0 * (0.25 / count).sqrt();
+    let left = |trial: &Trial| trial.line_side == Side::Left;
+    let shares = [
+        share(left),
+        share(|trial| trial.left.mirrored),
+        share(|trial| trial.left.inverted),
+        share(|trial| trial.left.phase < 0.5),
+        share(|trial| (trial.line_side == Side::Left) == trial.left.mirrored),
+        share(|trial| (trial.line_side == Side::Left) == trial.left.inverted),
+        share(|trial| (trial.line_side == Side::Left) == (trial.left.phase < 0.5)),
+    ];
+    assert!(shares.iter().all(|s| (s - 0.5).abs() < slack), "{shares:?}");
+}
+
+#[test]
+fn practice_gives_feedback_and_teaches_no_quest() {
+    let protocol = Protocol::two_alternative();
+    let mut experiment = Experiment::new(protocol.clone(), 9).unwrap();
+    experiment.proceed().unwrap();
+    for (number, ratio) in (1..).zip(&protocol.practice.ratios) {
+        let Stage::Practice(trial) = *experiment.stage() else { panic!("{}", experiment.stage().name()) };
+        assert_eq!((trial.number, trial.round), (number, 0));
+        assert!((trial.ratio() - ratio).abs() < 1e-12);
+        let side = [Side::Left, Side::Right][number as usize % 2];
+        let event = experiment.answer(side, 0.5).unwrap();
+        let correct = side == trial.line_side;
+        assert!(matches!(event, Event::Practice(answered) if answered.correct == correct));
+        assert_eq!(*experiment.stage(), Stage::Feedback { correct });
+        experiment.proceed().unwrap();
+    }
+    let first_break = Stage::Break { round: 1, rounds: 4 };
+    assert_eq!(*experiment.stage(), first_break);
+    let prior = Quest::new(protocol.quest_config()).unwrap();
+    assert!(experiment.tracks().iter().all(|track| *track.quest() == prior));
+}
+
+#[test]
+fn a_break_stands_before_every_round() {
+    let mut experiment = at_first_trial(Protocol::two_alternative());
+    let mut breaks = vec![];
+    let person = observer(1);
+    while *experiment.stage() != Stage::Finished {
+        match *experiment.stage() {
+            Stage::Trial(trial) => {
+                let progress = experiment.progress();
+                assert_eq!(progress.round, trial.round);
+                assert_eq!(progress.trials + 1, trial.number);
+                assert!(progress.trials < progress.trials_at_least);
+                assert!(progress.trials_at_least <= progress.trials_at_most);
+                experiment.answer(person.answer(&trial), 1.0).unwrap();
+            }
+            Stage::Break { round, rounds } => {
+                breaks.push((round, rounds));
+                experiment.proceed().unwrap();
+            }
+            stage => panic!("{}", stage.name()),
+        }
+    }
+    assert_eq!(breaks, [(2, 4), (3, 4), (4, 4)]);
+    let progress = experiment.progress();
+    assert_eq!(progress.trials, progress.trials_at_least);
+    assert_eq!(progress.trials, progress.trials_at_most);
+}
+
+#[test]
+fn quest_learns_from_the_radius_shown_where_the_picture_cannot_hold_the_one_asked_for() {
+    let mut protocol = Protocol::two_alternative();
+    // Radii up to 60 - 20 px: the threshold of 69 px at the largest texel cannot be shown.
+    protocol.picture_height_px = 120;
+    let mut experiment = Experiment::new(protocol.clone(), 3).unwrap();
+    let events = rehearse(&mut experiment, &observer(3)).unwrap();
+    let trials = measured(&events);
+    let clamped: Vec<_> = trials.iter().filter(|trial| trial.is_clamped()).collect();
+    assert!(clamped.len() > 10);
+    for trial in clamped {
+        let (smallest_px, largest_px) = protocol.radius_range_px(trial.condition.texel_px);
+        assert!(trial.radius_px == smallest_px || trial.radius_px == largest_px);
+    }
+    for track in experiment.tracks() {
+        let mut quest = Quest::new(protocol.quest_config()).unwrap();
+        let of_track = events.iter().filter_map(Event::measured);
+        for answered in of_track.filter(|a| a.trial.condition == *track.condition()) {
+            let shown = (answered.trial.condition.texel_px / answered.trial.radius_px).log10();
+            quest.update(shown, answered.correct).unwrap();
+        }
+        assert_eq!(quest, *track.quest());
+    }
+    let largest_step = experiment
+        .tracks()
+        .iter()
+        .filter(|track| track.condition().pattern == Pattern::Step && track.condition().texel_px == 20.0);
+    // The threshold lies beyond what was shown, which the rule must not call converged.
+    assert!(largest_step.clone().count() == 2);
+    assert!(largest_step.clone().all(|track| !track.verdict().inside));
+}
+
+#[test]
+fn calls_that_the_stage_does_not_take_are_refused_and_change_nothing() {
+    let mut experiment = Experiment::new(Protocol::two_alternative(), 1).unwrap();
+    let error = experiment.answer(Side::Left, 1.0).unwrap_err();
+    assert!(error.to_string().contains("answer at the stage instructions"));
+
+    let mut experiment = at_first_trial(Protocol::two_alternative());
+    let before = experiment.clone();
+    assert!(matches!(experiment.proceed(), Err(Error::Stage { .. })));
+    for secs in [-0.1, f64::NAN, f64::INFINITY] {
+        let error = experiment.answer(Side::Left, secs).unwrap_err();
+        assert!(error.to_string().starts_with("response_time_secs is"));
+    }
+    assert_eq!(experiment, before);
+}
+
+#[test]
+fn a_protocol_without_practice_starts_with_the_first_break() {
+    let mut protocol = Protocol::two_alternative();
+    protocol.practice.ratios.clear();
+    let mut experiment = Experiment::new(protocol, 1).unwrap();
+    experiment.proceed().unwrap();
+    assert!(matches!(experiment.stage(), Stage::Break { round: 1, .. }));
+}
