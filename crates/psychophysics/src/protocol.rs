@@ -49,8 +49,8 @@ pub struct Protocol {
     pub picture_width_px: u32,
     /// Height of each picture in physical pixels.
     pub picture_height_px: u32,
-    /// Smallest radius shown.
-    pub radius_min_px: f64,
+    /// Smallest radius shown, in texels.
+    pub ratio_min: f64,
     /// Centre of QUEST's prior, radius in texels.
     pub prior_ratio: f64,
     /// Standard deviation of QUEST's prior in log10 of the ratio.
@@ -84,6 +84,7 @@ impl Protocol {
     /// three interleaved QUESTs, at least 10 trials each, threshold probability 0.82, gamma 0.5,
     /// delta 0.01, beta 3.5. Deviations: two pictures instead of the question "Is the original
     /// image a line?", and a prior of 3 texels with SD 0.6 log10, as the published one has no unit.
+    /// The smallest radius, half a texel, is a fifth of the smallest published threshold.
     /// At most 28 trials a QUEST: simulated people need 240 of the 336 trials, near 25 minutes at
     /// 5 s a trial with practice and rests.
     pub fn two_alternative() -> Self {
@@ -95,7 +96,7 @@ impl Protocol {
             texels_px: vec![5.0, 10.0, 20.0],
             picture_width_px: 600,
             picture_height_px: 480,
-            radius_min_px: 0.5,
+            ratio_min: 0.5,
             prior_ratio: 3.0,
             prior_sd_log10: 0.6,
             threshold_probability: 0.82,
@@ -167,14 +168,16 @@ impl Protocol {
         self.rounds().into_iter().flat_map(of_round).collect()
     }
 
-    /// Smallest and largest radius that a picture of this texel can show.
+    /// Smallest and largest radius shown for this texel.
     ///
+    /// The smallest is `ratio_min` texels, where the steps are plain to everyone: who does not see
+    /// them there guesses, and the convergence rule finds the estimate at this end.
     /// The largest keeps the penumbra of the edge, which lies within one texel of the middle,
     /// inside the picture: half of its shorter side less a texel.
     pub fn radius_range_px(&self, texel_px: f64) -> (f64, f64) {
         let shorter_px = self.picture_width_px.min(self.picture_height_px);
         let largest_px = f64::from(shorter_px) / 2.0 - texel_px;
-        (self.radius_min_px, largest_px)
+        (self.ratio_min * texel_px, largest_px)
     }
 
     fn check_lists(&self) -> Result<(), Error> {
@@ -202,10 +205,10 @@ impl Protocol {
             require((1..=scumble_stimuli::MAX_SIDE_PX).contains(&side_px), field, side_px, "1 to 16384 pixels")?;
         }
         require(
-            self.radius_min_px.is_finite() && self.radius_min_px > 0.0,
-            "radius_min_px",
-            self.radius_min_px,
-            "a finite length above 0",
+            self.ratio_min.is_finite() && self.ratio_min > 0.0,
+            "ratio_min",
+            self.ratio_min,
+            "a finite number of texels above 0",
         )?;
         for texel_px in self.texels_px.iter().chain([&self.practice.texel_px]) {
             let (smallest_px, largest_px) = self.radius_range_px(*texel_px);
@@ -213,7 +216,7 @@ impl Protocol {
                 *texel_px > 0.0 && smallest_px < largest_px,
                 "texel_px",
                 texel_px,
-                "above 0 and small enough that a radius fits between radius_min_px and half the picture less a texel",
+                "above 0 and small enough that a radius fits between ratio_min texels and half the picture less a texel",
             )?;
         }
         Ok(())

@@ -47,7 +47,7 @@ fn every_parameter_out_of_range_is_refused_by_name_before_a_session_starts() {
         ("texel_px", |p| p.practice.texel_px = 0.0),
         ("picture_width_px", |p| p.picture_width_px = 0),
         ("picture_height_px", |p| p.picture_height_px = 100_000),
-        ("radius_min_px", |p| p.radius_min_px = 0.0),
+        ("ratio_min", |p| p.ratio_min = 0.0),
         ("trials_min to trials_max", |p| p.trials_min = 0),
         ("trials_min to trials_max", |p| p.trials_max = 9),
         ("prior_ratio", |p| p.prior_ratio = -3.0),
