@@ -1,0 +1,77 @@
+//! The pipeline that draws a scene into a shadow map: positions under the matrix of the drop-in's view, nothing else.
+
+use wgpu::util::DeviceExt;
+
+use crate::device::Gpu;
+use crate::gbuffer::entry;
+use crate::geometry::Geometry;
+
+/// Draws casters.
+pub struct CasterPass {
+    pipeline: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+}
+
+impl CasterPass {
+    /// Builds the pipeline. Both sides of every triangle cast, because open surfaces have no other side to stand in.
+    pub fn new(gpu: &Gpu) -> Self {
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("casters"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let module = gpu.device.create_shader_module(wgpu::include_wgsl!("../shader/caster.wgsl"));
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("casters"),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let unclipped_depth = gpu.device.features().contains(wgpu::Features::DEPTH_CLIP_CONTROL);
+        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("casters"),
+            layout: Some(&pipeline_layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("caster"),
+                compilation_options: Default::default(),
+                buffers: &[Some(Geometry::POSITION_LAYOUT)],
+            },
+            primitive: wgpu::PrimitiveState { unclipped_depth, ..Default::default() },
+            depth_stencil: Some(scumble::depth_state()),
+            multisample: Default::default(),
+            fragment: None,
+            multiview_mask: None,
+            cache: None,
+        });
+        Self { pipeline, layout }
+    }
+
+    /// The matrix of a view, for [`draw`](Self::draw).
+    pub fn matrix(&self, gpu: &Gpu, clip_from_world: glam::Mat4) -> wgpu::BindGroup {
+        let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("caster matrix"),
+            contents: bytemuck::bytes_of(&clip_from_world),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("caster matrix"),
+            layout: &self.layout,
+            entries: &[entry(0, buffer.as_entire_binding())],
+        })
+    }
+
+    /// Draws all casters into the pass of a view.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, matrix: &wgpu::BindGroup, geometry: &Geometry) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, matrix, &[]);
+        geometry.draw_positions(pass);
+    }
+}

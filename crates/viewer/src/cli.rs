@@ -1,0 +1,228 @@
+//! The command line. Every number is checked here, so that the commands start with what makes sense.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+const EXAMPLES: &str = "\
+Examples:
+  scumble-viewer shot --scene lamp --method pcss --size adaptive --out lamp.png
+      one picture with the smallest shadow map that hides its texels, and lamp.json beside it
+  scumble-viewer shot --scene path/to/model.glb --method pcf --size 2048 --radius 0.05 --out model.png
+      a scene of your own under a fixed map of 2048 x 2048 texels
+  scumble-viewer bench --scenes lamp --methods pcf,pcss --sizes 512,2048,adaptive --out results
+      times, texels and errors against ground truth: results/bench.csv, bench.json and pictures
+  scumble-viewer truth --scene lamp --method pcss --out truth.png
+      the same filter over an alias-free shadow, by rays on the processor
+
+`scumble-viewer scenes` lists the catalogue. Lengths are metres.";
+
+/// Pictures and benchmarks of adaptive shadow maps on real scenes.
+#[derive(Debug, Parser)]
+#[command(name = "scumble-viewer", version, about, after_help = EXAMPLES)]
+pub struct Cli {
+    /// What to do; nothing prints this help.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// One picture, and a JSON file of the same name beside it with texels, times and demand
+    Shot(Shot),
+    /// Compare sizes: times, texels, bytes, taps and error against ground truth
+    Bench(Bench),
+    /// Ground truth: the same filter over an alias-free shadow, by rays on the processor
+    Truth(Truth),
+    /// List the scenes of the catalogue
+    Scenes,
+}
+
+/// Options of `shot`.
+#[derive(Debug, Args)]
+pub struct Shot {
+    /// What is drawn
+    #[command(flatten)]
+    pub view: View,
+    /// How shadows are filtered
+    #[arg(long, value_enum, default_value_t = Method::Pcss)]
+    pub method: Method,
+    /// Texels of the shadow map: `adaptive`, N for N x N, or NxM
+    #[arg(long, default_value = "adaptive", value_name = "adaptive|N[xM]")]
+    pub size: Size,
+    /// The picture, a .png file
+    #[arg(long, value_name = "PNG")]
+    pub out: PathBuf,
+}
+
+/// Options of `bench`.
+#[derive(Debug, Args)]
+pub struct Bench {
+    /// Scenes, names of the catalogue or files, separated by commas [default: the whole catalogue]
+    #[arg(long, value_delimiter = ',', value_name = "S,S")]
+    pub scenes: Vec<String>,
+    /// Filters, separated by commas
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "pcf,pcss")]
+    pub methods: Vec<Method>,
+    /// Sizes, separated by commas: `adaptive`, N or NxM
+    #[arg(long, value_delimiter = ',', default_value = "2048,adaptive", value_name = "N,adaptive")]
+    pub sizes: Vec<Size>,
+    /// Timed frames of every variant; the variants take turns
+    #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(3..=10_000))]
+    pub frames: u32,
+    /// Light, softness, relation and picture size
+    #[command(flatten)]
+    pub conditions: Conditions,
+    /// The directory for bench.csv, bench.json and the pictures; made if missing
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Small pictures without supersampling and 15 frames: a look, not a result to report
+    #[arg(long)]
+    pub quick: bool,
+}
+
+/// Options of `truth`.
+#[derive(Debug, Args)]
+pub struct Truth {
+    /// What is drawn
+    #[command(flatten)]
+    pub view: View,
+    /// Which filter the truth is of
+    #[arg(long, value_enum, default_value_t = Method::Pcss)]
+    pub method: Method,
+    /// The picture, a .png file; the visibility of every sample goes beside it as .f32 (little-endian, row by row)
+    #[arg(long, value_name = "PNG")]
+    pub out: PathBuf,
+}
+
+/// A scene under conditions.
+#[derive(Debug, Args)]
+pub struct View {
+    /// A name of the catalogue or a .gltf, .glb or .obj file
+    #[arg(long, value_name = "S")]
+    pub scene: String,
+    /// Light, softness, relation and picture size
+    #[command(flatten)]
+    pub conditions: Conditions,
+}
+
+/// What shot, bench and truth share.
+#[derive(Clone, Debug, Args)]
+pub struct Conditions {
+    /// Size of the light: angular radius in degrees of a sun, radius in metres of a lamp [default: the scene's]
+    #[arg(long, value_name = "W", value_parser = positive)]
+    pub light_size: Option<f64>,
+    /// Filter radius of pcf in metres on the light's view plane [default: the scene's]
+    #[arg(long, value_name = "R", value_parser = positive)]
+    pub radius: Option<f64>,
+    /// relation.json of a study: texels per filter radius [default: the published 3.47]
+    #[arg(long, value_name = "FILE")]
+    pub relation: Option<PathBuf>,
+    /// Pixels across
+    #[arg(long, default_value_t = 1280, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub width: u32,
+    /// Pixels down
+    #[arg(long, default_value_t = 720, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub height: u32,
+    /// Where the scenes of the catalogue are [default: `assets` beside the program, else in the workspace]
+    #[arg(long, value_name = "DIR")]
+    pub assets: Option<PathBuf>,
+}
+
+/// How shadows are filtered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Method {
+    /// One comparison, hard edges
+    None,
+    /// Percentage-closer filtering with a fixed radius
+    Pcf,
+    /// Percentage-closer soft shadows: the radius grows with the distance of the blocker
+    Pcss,
+}
+
+impl Method {
+    /// As the command line spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Pcf => "pcf",
+            Self::Pcss => "pcss",
+        }
+    }
+}
+
+/// How large a shadow map is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// As small as the relation allows.
+    Adaptive,
+    /// Texels across and down.
+    Fixed([u32; 2]),
+}
+
+/// Largest side of a fixed map; the device may allow less and says so.
+const SIDE_MAX: u32 = 16_384;
+/// Smallest side of a fixed map: the floor of adaptive ones.
+const SIDE_MIN: u32 = 8;
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "adaptive" {
+            return Ok(Self::Adaptive);
+        }
+        let side = |part: &str| part.parse().ok().filter(|side| (SIDE_MIN..=SIDE_MAX).contains(side));
+        let (across, down) = text.split_once('x').unwrap_or((text, text));
+        match (side(across), side(down)) {
+            (Some(across), Some(down)) => Ok(Self::Fixed([across, down])),
+            _ => Err(format!("allowed are `adaptive`, N or NxM with sides of {SIDE_MIN} to {SIDE_MAX} texels")),
+        }
+    }
+}
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Adaptive => formatter.write_str("adaptive"),
+            Self::Fixed([across, down]) if across == down => write!(formatter, "{across}"),
+            Self::Fixed([across, down]) => write!(formatter, "{across}x{down}"),
+        }
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("a finite number above 0 is allowed".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_are_read_as_they_are_written() {
+        for text in ["adaptive", "2048", "512x448"] {
+            assert_eq!(text.parse::<Size>().map(|size| size.to_string()), Ok(text.to_owned()));
+        }
+    }
+
+    #[test]
+    fn a_size_that_is_none_is_refused_with_what_is_allowed() {
+        for text in ["", "x", "7", "512x", "x512", "16385", "-512", "512x512x512", "1e3", "Adaptive"] {
+            let refused = text.parse::<Size>().expect_err(text);
+            assert!(refused.contains("8 to 16384"), "{refused}");
+        }
+    }
+}

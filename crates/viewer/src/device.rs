@@ -1,0 +1,67 @@
+//! The GPU without a window: adapter, device, queue, and what the adapter can do.
+//!
+//! Asks for what the adapter offers of: timestamp queries (times at pass boundaries) and unclipped depth (casters in
+//! front of the light's near plane). The pictures need neither; times are absent where timestamps are.
+
+use anyhow::{Context, Result, anyhow};
+
+/// What a machine without an adapter is told.
+const NO_ADAPTER: &str = "no graphics adapter found: install a Vulkan driver (Debian and Ubuntu: `apt-get install \
+                          mesa-vulkan-drivers libvulkan1`, which renders on the processor) or a driver for the card";
+
+/// An open device with its queue.
+pub struct Gpu {
+    /// Makes resources.
+    pub device: wgpu::Device,
+    /// Takes commands.
+    pub queue: wgpu::Queue,
+    /// Name, driver and backend of the adapter, for records.
+    pub info: wgpu::AdapterInfo,
+}
+
+impl Gpu {
+    /// Opens the most powerful adapter there is, a software one if need be.
+    ///
+    /// The environment variables of wgpu choose another one: `WGPU_BACKEND`, `WGPU_ADAPTER_NAME` are read by wgpu,
+    /// `VK_DRIVER_FILES` by the Vulkan loader.
+    pub fn open() -> Result<Self> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|_| anyhow!(NO_ADAPTER))?;
+        let wanted = wgpu::Features::TIMESTAMP_QUERY
+            | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS
+            | wgpu::Features::DEPTH_CLIP_CONTROL
+            | wgpu::Features::FLOAT32_FILTERABLE;
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("viewer"),
+            required_features: adapter.features() & wanted,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let info = adapter.get_info();
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .with_context(|| format!("the adapter {} refuses a device", info.name))?;
+        Ok(Self { device, queue, info })
+    }
+
+    /// Whether passes can be timed on this device.
+    pub fn has_timestamps(&self) -> bool {
+        let needed = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS;
+        self.device.features().contains(needed)
+    }
+
+    /// A command encoder with a label for debuggers.
+    pub fn encoder(&self, label: &str) -> wgpu::CommandEncoder {
+        self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) })
+    }
+
+    /// Submits the commands and waits until the device has done them.
+    pub fn finish(&self, encoder: wgpu::CommandEncoder) -> Result<()> {
+        self.queue.submit([encoder.finish()]);
+        self.device.poll(wgpu::PollType::wait_indefinitely()).context("the device was lost")?;
+        Ok(())
+    }
+}

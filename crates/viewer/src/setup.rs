@@ -1,0 +1,82 @@
+//! What the commands work on: a scene with its light and camera, a filter and a relation, from the options.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, ensure};
+use scumble_core::{Filter, Light, Relation};
+use scumble_scenes::Scene;
+
+use crate::cli::{Conditions, Method};
+
+/// A sun wider than this is no disc in the sky any more: tan grows without bound towards 90 degrees.
+const HALF_ANGLE_MAX_DEG: f64 = 45.0;
+
+/// A scene under conditions.
+pub struct Setup {
+    /// Meshes, camera with the aspect of the picture, light with the size asked for.
+    pub scene: Scene,
+    /// The radius of PCF, world length on the light's view plane.
+    pub pcf_radius_world: f64,
+    /// Texels per radius.
+    pub relation: Relation,
+    /// Where the relation comes from, for records.
+    pub relation_source: String,
+}
+
+impl Setup {
+    /// Opens the scene and applies the conditions.
+    pub fn open(scene: &str, conditions: &Conditions) -> Result<Self> {
+        let mut scene = scumble_scenes::open(scene, &assets(conditions.assets.as_deref()))?;
+        scene.camera.aspect = f64::from(conditions.width) / f64::from(conditions.height);
+        if let Some(size) = conditions.light_size {
+            set_light_size(&mut scene.light, size)?;
+        }
+        let (relation, relation_source) = match &conditions.relation {
+            None => (Relation::published(), "published".to_owned()),
+            Some(path) => (read_relation(path)?, path.display().to_string()),
+        };
+        let pcf_radius_world = conditions.radius.unwrap_or(scene.pcf_radius_world);
+        Ok(Self { scene, pcf_radius_world, relation, relation_source })
+    }
+
+    /// The filter of a method with the softness of this setup.
+    pub fn filter(&self, method: Method) -> Filter {
+        match method {
+            Method::None => Filter::Hard,
+            Method::Pcf => Filter::Pcf { radius_world: self.pcf_radius_world },
+            Method::Pcss => Filter::Pcss,
+        }
+    }
+}
+
+fn set_light_size(light: &mut Light, size: f64) -> Result<()> {
+    match light {
+        Light::Directional { half_angle, .. } => {
+            ensure!(
+                size <= HALF_ANGLE_MAX_DEG,
+                "--light-size {size}: the angular radius of a sun is at most {HALF_ANGLE_MAX_DEG} degrees"
+            );
+            *half_angle = size.to_radians();
+        }
+        Light::Spot { radius_world, .. } => *radius_world = size,
+    }
+    Ok(())
+}
+
+fn read_relation(path: &Path) -> Result<Relation> {
+    let text = fs::read_to_string(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+    Relation::from_json(&text).with_context(|| path.display().to_string())
+}
+
+/// The folder of models: as asked, else beside the program, else the one of the workspace that built it.
+fn assets(asked: Option<&Path>) -> PathBuf {
+    if let Some(path) = asked {
+        return path.to_owned();
+    }
+    let beside = std::env::current_exe().ok().and_then(|program| Some(program.parent()?.join("assets")));
+    match beside.filter(|path| path.is_dir()) {
+        Some(path) => path,
+        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets"),
+    }
+}

@@ -1,0 +1,147 @@
+//! From receivers and visibility to a picture: Lambert reflection, sky light with ambient obscurance, a simple sky.
+//!
+//! The G-buffer has `samples_per_side`^2 samples per pixel of the picture; they are averaged after the tone curve. Nothing
+//! here is measured: the pictures show what the numbers say.
+
+use anyhow::{Context, Result};
+use glam::{DVec3, Vec3};
+use image::RgbImage;
+use scumble_core::Light;
+use scumble_scenes::Scene;
+
+use crate::device::Gpu;
+use crate::fullscreen;
+use crate::gbuffer::{GBuffer, GBufferPass, entry, target, texture_entry};
+use crate::readback::read_texture;
+
+/// Marks a directional light where a spot has the cosine of its cone.
+const NO_CONE: f32 = -2.0;
+/// The obscurance looks this far, as a share of the distance from the eye to what it looks at.
+const OBSCURANCE_SHARE: f64 = 0.06;
+
+/// Twin of `Lighting` in lighting.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct LightingUniform {
+    light_color: Vec3,
+    obscurance_radius_world: f32,
+    light_position: Vec3,
+    focal_length_px: f32,
+    light_direction: Vec3,
+    cone_cosine: f32,
+    zenith_color: Vec3,
+    reference_distance_squared: f32,
+    horizon_color: Vec3,
+    samples_per_side: u32,
+    ground_color: Vec3,
+    exposure: f32,
+    up: Vec3,
+    padding: f32,
+}
+
+impl LightingUniform {
+    /// The look of a scene: sun and sky for a directional light, a warm lamp in a dim room for a spot.
+    pub fn new(scene: &Scene, height_px: u32, samples_per_side: u32) -> Self {
+        let camera = &scene.camera;
+        let up = camera.up.normalize().as_vec3();
+        let focal_length_px = f64::from(height_px * samples_per_side) / 2.0 / (camera.vertical_fov / 2.0).tan();
+        let obscurance = OBSCURANCE_SHARE * (camera.target - camera.eye).length();
+        let common = Self {
+            obscurance_radius_world: obscurance as f32,
+            focal_length_px: focal_length_px as f32,
+            samples_per_side,
+            exposure: 1.0,
+            up,
+            ..bytemuck::Zeroable::zeroed()
+        };
+        match &scene.light {
+            Light::Directional { direction, .. } => Self {
+                light_color: Vec3::new(2.9, 2.62, 2.2),
+                light_direction: direction.normalize().as_vec3(),
+                cone_cosine: NO_CONE,
+                zenith_color: Vec3::new(0.26, 0.45, 0.82),
+                horizon_color: Vec3::new(0.86, 0.93, 1.0),
+                ground_color: Vec3::new(0.30, 0.27, 0.23),
+                ..common
+            },
+            Light::Spot { position, direction, cone_half_angle, .. } => Self {
+                light_color: Vec3::new(3.3, 2.75, 2.0),
+                light_position: position.as_vec3(),
+                light_direction: direction.normalize().as_vec3(),
+                cone_cosine: cone_half_angle.cos() as f32,
+                reference_distance_squared: reference_distance(*position, scene).powi(2) as f32,
+                zenith_color: Vec3::new(0.20, 0.23, 0.30),
+                horizon_color: Vec3::new(0.30, 0.30, 0.32),
+                ground_color: Vec3::new(0.20, 0.17, 0.14),
+                ..common
+            },
+        }
+    }
+}
+
+/// Where a spot's light has the strength of `light_color`: at the distance of what the camera looks at.
+fn reference_distance(position: DVec3, scene: &Scene) -> f64 {
+    position.distance(scene.camera.target).max(1e-3)
+}
+
+/// The pipelines of the picture.
+pub struct ShadingPass {
+    ambient: wgpu::RenderPipeline,
+    shade: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+}
+
+impl ShadingPass {
+    const OPENNESS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+    const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+
+    /// Builds the pipelines.
+    pub fn new(gpu: &Gpu, gbuffer: &GBufferPass) -> Self {
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("shading"),
+            entries: &[texture_entry(0), texture_entry(1)],
+        });
+        const SHARED: &str = concat!(
+            include_str!("../shader/camera.wgsl"),
+            include_str!("../shader/gbuffer_read.wgsl"),
+            include_str!("../shader/lighting.wgsl")
+        );
+        let ambient_source = [SHARED, include_str!("../shader/ambient.wgsl")].concat();
+        let shade_source = [SHARED, include_str!("../shader/shading.wgsl")].concat();
+        let ambient_layouts = [&gbuffer.layout];
+        let shade_layouts = [&gbuffer.layout, &layout];
+        let ambient =
+            fullscreen::pipeline(gpu, "ambient", &ambient_source, "ambient", &ambient_layouts, Self::OPENNESS_FORMAT);
+        let shade = fullscreen::pipeline(gpu, "shade", &shade_source, "shade", &shade_layouts, Self::PICTURE_FORMAT);
+        Self { ambient, shade, layout }
+    }
+
+    /// The picture of a G-buffer under a visibility texture of the same size.
+    pub fn picture(
+        &self,
+        gpu: &Gpu,
+        gbuffer: &GBuffer,
+        visibility: &wgpu::Texture,
+        samples_per_side: u32,
+    ) -> Result<RgbImage> {
+        let [width, height] = gbuffer.size_px.map(|side| side / samples_per_side);
+        let openness = target(gpu, "openness", gbuffer.size_px, Self::OPENNESS_FORMAT);
+        let picture = target(gpu, "picture", [width, height], Self::PICTURE_FORMAT);
+        let views = [visibility, &openness].map(|texture| texture.create_view(&Default::default()));
+        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("shading"),
+            layout: &self.layout,
+            entries: &[
+                entry(0, wgpu::BindingResource::TextureView(&views[0])),
+                entry(1, wgpu::BindingResource::TextureView(&views[1])),
+            ],
+        });
+        let mut encoder = gpu.encoder("picture");
+        fullscreen::draw(&mut encoder, "ambient", &self.ambient, &[&gbuffer.bind_group], &openness);
+        fullscreen::draw(&mut encoder, "shade", &self.shade, &[&gbuffer.bind_group, &bind_group], &picture);
+        gpu.finish(encoder)?;
+        let rgba = read_texture(gpu, &picture)?;
+        let rgb = rgba.chunks_exact(4).flat_map(|texel| &texel[..3]).copied().collect();
+        RgbImage::from_raw(width, height, rgb).context("the picture has another size than its pixels")
+    }
+}
