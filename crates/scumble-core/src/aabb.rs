@@ -16,18 +16,12 @@ pub struct Aabb {
 
 impl Aabb {
     /// The box of no point, the start of every union.
-    pub const EMPTY: Self = Self {
-        min: DVec3::INFINITY,
-        max: DVec3::NEG_INFINITY,
-    };
+    pub const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
     /// The smallest box around `points`; [`Aabb::EMPTY`] around none.
     #[must_use]
     pub fn from_points(points: impl IntoIterator<Item = DVec3>) -> Self {
-        points.into_iter().fold(Self::EMPTY, |all, p| Self {
-            min: all.min.min(p),
-            max: all.max.max(p),
-        })
+        points.into_iter().fold(Self::EMPTY, |all, p| Self { min: all.min.min(p), max: all.max.max(p) })
     }
 
     /// Whether the box holds no point. A box of zero size holds one.
@@ -63,10 +57,7 @@ impl Aabb {
     /// The smallest box around both.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
-        Self {
-            min: self.min.min(other.min),
-            max: self.max.max(other.max),
-        }
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
     /// Refuses NaN, and infinite sides of a box that is not empty.
@@ -98,27 +89,15 @@ mod tests {
 
     #[test]
     fn the_corners_of_a_box_span_it() {
-        let bounds = Aabb {
-            min: DVec3::new(-1.0, 2.0, 3.0),
-            max: DVec3::new(4.0, 5.0, 7.0),
-        };
+        let bounds = Aabb { min: DVec3::new(-1.0, 2.0, 3.0), max: DVec3::new(4.0, 5.0, 7.0) };
         assert_eq!(Aabb::from_points(bounds.corners()), bounds);
         assert_eq!(bounds.center(), DVec3::new(1.5, 3.5, 5.0));
     }
 
     #[test]
     fn nan_in_the_bounds_is_refused_by_name() {
-        let bounds = Aabb {
-            min: DVec3::ZERO,
-            max: DVec3::new(1.0, f64::NAN, 1.0),
-        };
-        assert!(
-            bounds
-                .checked()
-                .unwrap_err()
-                .to_string()
-                .contains("max of the scene's bounds")
-        );
+        let bounds = Aabb { min: DVec3::ZERO, max: DVec3::new(1.0, f64::NAN, 1.0) };
+        assert!(bounds.checked().unwrap_err().to_string().contains("max of the scene's bounds"));
         assert!(Aabb::EMPTY.checked().is_ok());
     }
 }

@@ -34,11 +34,7 @@ pub struct Bias {
 
 impl Default for Bias {
     fn default() -> Self {
-        Self {
-            constant_texels: 0.1,
-            slope_texels: 1.0,
-            slope_angle_max: 85.0_f64.to_radians(),
-        }
+        Self { constant_texels: 0.1, slope_texels: 1.0, slope_angle_max: 85.0_f64.to_radians() }
     }
 }
 
@@ -46,11 +42,7 @@ impl Bias {
     /// For a depth source without texels.
     #[must_use]
     pub fn without_texels() -> Self {
-        Self {
-            constant_texels: 0.0,
-            slope_texels: 0.0,
-            ..Self::default()
-        }
+        Self { constant_texels: 0.0, slope_texels: 0.0, ..Self::default() }
     }
 
     /// Refuses negative and unbounded bias.
@@ -62,12 +54,7 @@ impl Bias {
         not_negative("bias.slope_texels", self.slope_texels)?;
         let angle = self.slope_angle_max;
         let holds = (0.0..std::f64::consts::FRAC_PI_2).contains(&angle);
-        check(
-            "bias.slope_angle_max",
-            angle,
-            holds,
-            "an angle in radians from 0 to below pi / 2",
-        )?;
+        check("bias.slope_angle_max", angle, holds, "an angle in radians from 0 to below pi / 2")?;
         Ok(*self)
     }
 }
@@ -91,13 +78,7 @@ impl ReceiverPlane {
     /// The tangent plane of a surface at `position_world` with the geometric normal `normal_world` (unit length, either
     /// side), under a map whose texels measure `texel_world` at the reference plane.
     #[must_use]
-    pub fn new(
-        fit: &Fit,
-        position_world: DVec3,
-        normal_world: DVec3,
-        bias: &Bias,
-        texel_world: DVec2,
-    ) -> Self {
+    pub fn new(fit: &Fit, position_world: DVec3, normal_world: DVec3, bias: &Bias, texel_world: DVec2) -> Self {
         let p = fit.light_from_world.transform_point3(position_world);
         let n = fit.light_from_world.transform_vector3(normal_world);
         let depth = -p.z;
@@ -105,24 +86,13 @@ impl ReceiverPlane {
             Light::Directional { .. } => None,
             Light::Spot { .. } => Some(fit.reference_depth()),
         };
-        let ray = if perspective_reference.is_some() {
-            p.truncate() / depth
-        } else {
-            DVec2::ZERO
-        };
+        let ray = if perspective_reference.is_some() { p.truncate() / depth } else { DVec2::ZERO };
         let along = ray.dot(n.truncate()) - n.z;
         let slope = slope_of(n.truncate(), along, bias.slope_angle_max.tan());
         let texel = texel_world.max_element() / fit.reference_from_depth(depth);
-        let of_texel =
-            texel * (bias.constant_texels + bias.slope_texels * (slope.x.abs() + slope.y.abs()));
+        let of_texel = texel * (bias.constant_texels + bias.slope_texels * (slope.x.abs() + slope.y.abs()));
         let bias_world = of_texel + ROUNDING * (fit.depth_far - fit.depth_near);
-        Self {
-            depth,
-            slope,
-            bias_world,
-            perspective_reference,
-            depth_far: fit.depth_far,
-        }
+        Self { depth, slope, bias_world, perspective_reference, depth_far: fit.depth_far }
     }
 
     /// The depth to compare with at `offset_world` on the reference plane, in metres.
@@ -133,11 +103,7 @@ impl ReceiverPlane {
             None => self.depth + rise,
             Some(reference) => {
                 let share = 1.0 - rise / reference;
-                if share * self.depth_far > self.depth {
-                    self.depth / share
-                } else {
-                    self.depth_far
-                }
+                if share * self.depth_far > self.depth { self.depth / share } else { self.depth_far }
             }
         };
         plane.min(self.depth_far) - self.bias_world
@@ -148,11 +114,7 @@ impl ReceiverPlane {
 fn slope_of(n_xy: DVec2, along: f64, largest: f64) -> DVec2 {
     let length = n_xy.length();
     if length <= largest * along.abs() {
-        if along == 0.0 {
-            DVec2::ZERO
-        } else {
-            -n_xy / along
-        }
+        if along == 0.0 { DVec2::ZERO } else { -n_xy / along }
     } else {
         let sign = if along < 0.0 { 1.0 } else { -1.0 };
         n_xy * (sign * largest / length)
@@ -167,10 +129,7 @@ mod tests {
     /// A tilted plane through `p`; the depth where the light's ray at an offset meets it, computed in world space.
     fn truth(fit: &Fit, p: DVec3, n: DVec3, offset: DVec2) -> f64 {
         let q = fit.plane_from_world(p) + offset;
-        let (a, b) = (
-            fit.world_from_plane(q, fit.depth_near),
-            fit.world_from_plane(q, fit.depth_far),
-        );
+        let (a, b) = (fit.world_from_plane(q, fit.depth_near), fit.world_from_plane(q, fit.depth_far));
         let share = n.dot(p - a) / n.dot(b - a);
         fit.depth(a + share * (b - a))
     }
@@ -179,18 +138,11 @@ mod tests {
     fn the_tangent_plane_is_exact_for_both_kinds_of_light() {
         for fit in [sun_over_room(), lamp_over_room()] {
             let p = DVec3::new(0.4, 0.3, -0.7);
-            for n in [
-                DVec3::Y,
-                DVec3::new(0.5, 1.0, -0.3).normalize(),
-                -DVec3::new(-0.8, 1.0, 0.9).normalize(),
-            ] {
+            for n in [DVec3::Y, DVec3::new(0.5, 1.0, -0.3).normalize(), -DVec3::new(-0.8, 1.0, 0.9).normalize()] {
                 let plane = ReceiverPlane::new(&fit, p, n, &Bias::without_texels(), DVec2::ZERO);
                 for offset in [DVec2::ZERO, DVec2::new(0.02, 0.0), DVec2::new(-0.01, 0.03)] {
                     let expected = truth(&fit, p, n, offset) - plane.bias_world;
-                    assert!(
-                        (plane.depth_at(offset) - expected).abs() < 1e-9,
-                        "{n} {offset}"
-                    );
+                    assert!((plane.depth_at(offset) - expected).abs() < 1e-9, "{n} {offset}");
                 }
             }
         }
@@ -202,12 +154,7 @@ mod tests {
         let texel = DVec2::splat(0.05);
         let n = DVec3::new(0.5, 1.0, -0.3).normalize();
         let plane = ReceiverPlane::new(&fit, DVec3::ZERO, n, &Bias::default(), texel);
-        for corner in [
-            DVec2::new(1.0, 1.0),
-            DVec2::new(-1.0, 1.0),
-            DVec2::new(1.0, -1.0),
-            DVec2::new(-1.0, -1.0),
-        ] {
+        for corner in [DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0), DVec2::new(1.0, -1.0), DVec2::new(-1.0, -1.0)] {
             let stored = truth(&fit, DVec3::ZERO, n, corner * texel);
             assert!(plane.depth_at(DVec2::ZERO) < stored);
         }
@@ -225,23 +172,13 @@ mod tests {
     #[test]
     fn bias_out_of_range_is_refused_by_name() {
         assert!(
-            Bias {
-                slope_angle_max: 1.6,
-                ..Bias::default()
-            }
-            .checked()
-            .unwrap_err()
-            .to_string()
-            .contains("slope_angle_max")
+            Bias { slope_angle_max: 1.6, ..Bias::default() }
+                .checked()
+                .unwrap_err()
+                .to_string()
+                .contains("slope_angle_max")
         );
-        assert!(
-            Bias {
-                constant_texels: -1.0,
-                ..Bias::default()
-            }
-            .checked()
-            .is_err()
-        );
+        assert!(Bias { constant_texels: -1.0, ..Bias::default() }.checked().is_err());
         assert!(Bias::default().checked().is_ok());
     }
 }

@@ -54,12 +54,7 @@ impl Camera {
         )?;
         crate::error::positive("the camera's aspect", self.aspect)?;
         crate::error::positive("the camera's near", self.near)?;
-        check(
-            "the camera's far",
-            self.far,
-            self.far > self.near,
-            "a distance above near, or infinite",
-        )?;
+        check("the camera's far", self.far, self.far > self.near, "a distance above near, or infinite")?;
         Ok(*self)
     }
 
@@ -128,21 +123,9 @@ impl Camera {
         let up = right.cross(forward);
         let half_height = 0.5 * self.height_at_unit_distance();
         let corner = |i: usize| {
-            let distance = if i & 4 == 0 {
-                self.near
-            } else {
-                self.far.min(far_at_most)
-            };
-            let x = if i & 1 == 0 {
-                -half_height
-            } else {
-                half_height
-            } * self.aspect;
-            let y = if i & 2 == 0 {
-                -half_height
-            } else {
-                half_height
-            };
+            let distance = if i & 4 == 0 { self.near } else { self.far.min(far_at_most) };
+            let x = if i & 1 == 0 { -half_height } else { half_height } * self.aspect;
+            let y = if i & 2 == 0 { -half_height } else { half_height };
             self.eye + distance * (forward + x * right + y * up)
         };
         Polyhedron::from_corners(std::array::from_fn(corner))
@@ -179,15 +162,8 @@ mod tests {
                 70.0 * (t * 0.569_840).fract() - 60.0,
             );
             let clip = camera.clip_from_world() * p.extend(1.0);
-            let in_clip = clip.x.abs() <= clip.w
-                && clip.y.abs() <= clip.w
-                && clip.z >= 0.0
-                && clip.z <= clip.w;
-            assert_eq!(
-                in_clip,
-                sides.iter().all(|side| side.distance(p) >= 0.0),
-                "{p}"
-            );
+            let in_clip = clip.x.abs() <= clip.w && clip.y.abs() <= clip.w && clip.z >= 0.0 && clip.z <= clip.w;
+            assert_eq!(in_clip, sides.iter().all(|side| side.distance(p) >= 0.0), "{p}");
             inside += usize::from(in_clip);
         }
         assert!(inside > 100, "{inside}");
@@ -198,10 +174,7 @@ mod tests {
         let camera = camera();
         for corner in camera.frustum(f64::INFINITY).vertices() {
             let ndc = camera.clip_from_world().project_point3(corner);
-            assert!(
-                (ndc.x.abs() - 1.0).abs() < 1e-9 && (ndc.y.abs() - 1.0).abs() < 1e-9,
-                "{ndc}"
-            );
+            assert!((ndc.x.abs() - 1.0).abs() < 1e-9 && (ndc.y.abs() - 1.0).abs() < 1e-9, "{ndc}");
             assert!(ndc.z.abs() < 1e-9 || (ndc.z - 1.0).abs() < 1e-9, "{ndc}");
         }
     }
@@ -209,62 +182,16 @@ mod tests {
     #[test]
     fn what_has_no_picture_is_refused_by_name() {
         let wrong = [
-            (
-                Camera {
-                    target: camera().eye,
-                    ..camera()
-                },
-                "direction",
-            ),
-            (
-                Camera {
-                    up: camera().forward(),
-                    ..camera()
-                },
-                "up",
-            ),
-            (
-                Camera {
-                    vertical_fov: 4.0,
-                    ..camera()
-                },
-                "vertical_fov",
-            ),
-            (
-                Camera {
-                    near: -0.1,
-                    ..camera()
-                },
-                "near",
-            ),
-            (
-                Camera {
-                    far: 0.05,
-                    ..camera()
-                },
-                "far",
-            ),
-            (
-                Camera {
-                    far: f64::NAN,
-                    ..camera()
-                },
-                "far",
-            ),
+            (Camera { target: camera().eye, ..camera() }, "direction"),
+            (Camera { up: camera().forward(), ..camera() }, "up"),
+            (Camera { vertical_fov: 4.0, ..camera() }, "vertical_fov"),
+            (Camera { near: -0.1, ..camera() }, "near"),
+            (Camera { far: 0.05, ..camera() }, "far"),
+            (Camera { far: f64::NAN, ..camera() }, "far"),
         ];
         for (camera, name) in wrong {
-            assert!(
-                camera.checked().unwrap_err().to_string().contains(name),
-                "{name}"
-            );
+            assert!(camera.checked().unwrap_err().to_string().contains(name), "{name}");
         }
-        assert!(
-            Camera {
-                far: f64::INFINITY,
-                ..camera()
-            }
-            .checked()
-            .is_ok()
-        );
+        assert!(Camera { far: f64::INFINITY, ..camera() }.checked().is_ok());
     }
 }

@@ -39,31 +39,13 @@ pub enum Error {
 }
 
 /// Returns `value` when `holds`, else the error that names it.
-pub(crate) fn check(
-    name: &'static str,
-    value: f64,
-    holds: bool,
-    allowed: &'static str,
-) -> Result<f64, Error> {
-    if holds {
-        Ok(value)
-    } else {
-        Err(Error::Number {
-            name,
-            value,
-            allowed,
-        })
-    }
+pub(crate) fn check(name: &'static str, value: f64, holds: bool, allowed: &'static str) -> Result<f64, Error> {
+    if holds { Ok(value) } else { Err(Error::Number { name, value, allowed }) }
 }
 
 /// A finite number above zero.
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
-    check(
-        name,
-        value,
-        value.is_finite() && value > 0.0,
-        "a finite number above 0",
-    )
+    check(name, value, value.is_finite() && value > 0.0, "a finite number above 0")
 }
 
 /// A finite number, zero included, with a positive sign.
@@ -78,15 +60,7 @@ pub(crate) fn not_negative(name: &'static str, value: f64) -> Result<f64, Error>
 
 /// A vector of finite components.
 pub(crate) fn finite(name: &'static str, value: glam::DVec3) -> Result<glam::DVec3, Error> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(Error::Vector {
-            name,
-            value,
-            allowed: "three finite numbers",
-        })
-    }
+    if value.is_finite() { Ok(value) } else { Err(Error::Vector { name, value, allowed: "three finite numbers" }) }
 }
 
 /// A direction, normalised; its length may be anything that is not zero.
@@ -96,10 +70,6 @@ pub(crate) fn direction(name: &'static str, value: glam::DVec3) -> Result<glam::
     if value.is_finite() && largest > 0.0 {
         Ok((value / largest).normalize())
     } else {
-        Err(Error::Vector {
-            name,
-            value,
-            allowed: "a finite vector that is not zero",
-        })
+        Err(Error::Vector { name, value, allowed: "a finite vector that is not zero" })
     }
 }

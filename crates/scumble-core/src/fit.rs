@@ -63,12 +63,7 @@ pub struct Fit {
 ///
 /// # Errors
 /// Names a value of camera, scene or light that is out of range.
-pub fn fit(
-    camera: &Camera,
-    scene: &Aabb,
-    light: &Light,
-    fitted: bool,
-) -> Result<Option<Fit>, Error> {
+pub fn fit(camera: &Camera, scene: &Aabb, light: &Light, fitted: bool) -> Result<Option<Fit>, Error> {
     let (camera, scene, light) = (camera.checked()?, scene.checked()?, light.checked()?);
     if scene.is_empty() {
         return Ok(None);
@@ -88,21 +83,13 @@ pub fn fit(
     // The light's own square view plane, and the box in it.
     let reference = near_lit;
     let square = frame.square(&local, reference);
-    let (min, max) = if fitted {
-        frame.bounds(&receivers, reference)
-    } else {
-        square
-    };
+    let (min, max) = if fitted { frame.bounds(&receivers, reference) } else { square };
     let smallest = smallest_length(&scene);
     let extent_world = (max - min).max(DVec2::splat(smallest));
     let side = (square.1 - square.0).max_element().max(smallest);
 
     // The depth range: from the first caster in the column to the last receiver.
-    let far = if fitted {
-        frame.depth_range(&receivers).1
-    } else {
-        far_lit
-    };
+    let far = if fitted { frame.depth_range(&receivers).1 } else { far_lit };
     let mut fit = Fit {
         light,
         light_from_world: frame.light_from_world,
@@ -168,10 +155,7 @@ impl Fit {
     #[must_use]
     pub fn uv_from_world(&self, position_world: DVec3) -> (DVec2, f64) {
         let offset = self.plane_from_world(position_world) - self.center;
-        (
-            DVec2::splat(0.5) + self.uv_from_offset(offset),
-            self.depth(position_world),
-        )
+        (DVec2::splat(0.5) + self.uv_from_offset(offset), self.depth(position_world))
     }
 
     /// An offset on the reference plane in UV, with v down.
@@ -197,9 +181,7 @@ impl Fit {
         let range = self.depth_far - self.depth_near;
         match self.light {
             Light::Directional { .. } => self.depth_near + depth_ndc * range,
-            Light::Spot { .. } => {
-                self.depth_far * self.depth_near / (self.depth_far - depth_ndc * range)
-            }
+            Light::Spot { .. } => self.depth_far * self.depth_near / (self.depth_far - depth_ndc * range),
         }
     }
 
@@ -222,11 +204,7 @@ impl Fit {
     pub fn with_border(&self, border_world: f64) -> Self {
         let extent_world = self.extent_world + DVec2::splat(2.0 * border_world);
         let scale = self.scale * self.extent_world / extent_world;
-        let mut wider = Self {
-            extent_world,
-            scale,
-            ..self.clone()
-        };
+        let mut wider = Self { extent_world, scale, ..self.clone() };
         if let Light::Directional { .. } = self.light {
             wider.depth_near = wider.first_caster().min(self.depth_near);
             wider.widen_depth(0.0);
@@ -261,10 +239,7 @@ impl Fit {
         let frame = Frame::new(self.light, origin);
         let half = 0.5 * self.extent_world;
         let side = |axis: DVec3, at: DVec2| {
-            HalfSpace::through(
-                frame.local_from_light(at.extend(0.0)),
-                frame.world_from_light(axis),
-            )
+            HalfSpace::through(frame.local_from_light(at.extend(0.0)), frame.world_from_light(axis))
         };
         let column = [
             side(DVec3::X, self.center - half),
@@ -272,8 +247,7 @@ impl Fit {
             side(DVec3::Y, self.center - half),
             side(DVec3::NEG_Y, self.center + half),
         ];
-        let casters =
-            Polyhedron::from_corners(self.scene.corners().map(|p| p - origin)).clip_all(&column);
+        let casters = Polyhedron::from_corners(self.scene.corners().map(|p| p - origin)).clip_all(&column);
         frame.depth_range(&casters).0
     }
 
@@ -291,7 +265,5 @@ impl Fit {
 /// The smallest extent that a box of this scene is given.
 fn smallest_length(scene: &Aabb) -> f64 {
     let distance = scene.min.abs().max(scene.max.abs()).max_element();
-    (SMALLEST_OF_SIZE * scene.size().length())
-        .max(SMALLEST_OF_DISTANCE * distance)
-        .max(SMALLEST_WORLD)
+    (SMALLEST_OF_SIZE * scene.size().length()).max(SMALLEST_OF_DISTANCE * distance).max(SMALLEST_WORLD)
 }

@@ -41,7 +41,6 @@ pub use policy::{Demand, Ladder, Size, SizePolicy, size_achieved};
 pub use polyhedron::{HalfSpace, Polyhedron};
 pub use relation::{RATIO_MAX, ROUNDING_SLACK, Relation, whole_texels};
 pub use relation_file::{
-    ConditionEstimate, Estimate, FormTests, NullTest, PopulationPoint, RelationFile, SCHEMA,
-    SessionHash,
+    ConditionEstimate, Estimate, FormTests, NullTest, PopulationPoint, RelationFile, SCHEMA, SessionHash,
 };
 pub use settings::{Filter, Settings, pixel_footprint_world};

@@ -49,25 +49,13 @@ impl Light {
     /// Names a value that is not finite, a direction of no length, or an angle or a radius out of range.
     pub fn checked(&self) -> Result<Self, Error> {
         match *self {
-            Self::Directional {
-                direction: travel,
-                half_angle,
-            } => {
+            Self::Directional { direction: travel, half_angle } => {
                 let allowed = "an angle in radians from 0 to below pi / 2";
-                let holds =
-                    half_angle.is_sign_positive() && half_angle < std::f64::consts::FRAC_PI_2;
+                let holds = half_angle.is_sign_positive() && half_angle < std::f64::consts::FRAC_PI_2;
                 check("the light's half_angle", half_angle, holds, allowed)?;
-                Ok(Self::Directional {
-                    direction: direction("the light's direction", travel)?,
-                    half_angle,
-                })
+                Ok(Self::Directional { direction: direction("the light's direction", travel)?, half_angle })
             }
-            Self::Spot {
-                position,
-                direction: axis,
-                cone_half_angle,
-                radius_world,
-            } => {
+            Self::Spot { position, direction: axis, cone_half_angle, radius_world } => {
                 finite("the light's position", position)?;
                 not_negative("the light's radius_world", radius_world)?;
                 let holds = cone_half_angle > 0.0 && cone_half_angle <= Self::CONE_HALF_ANGLE_MAX;
@@ -78,12 +66,7 @@ impl Light {
                     "an angle in radians above 0, at most 1.4",
                 )?;
                 let axis = direction("the light's direction", axis)?;
-                Ok(Self::Spot {
-                    position,
-                    direction: axis,
-                    cone_half_angle,
-                    radius_world,
-                })
+                Ok(Self::Spot { position, direction: axis, cone_half_angle, radius_world })
             }
         }
     }
@@ -105,11 +88,7 @@ impl Light {
             Self::Spot { position, .. } => position,
         };
         let along = self.direction().normalize();
-        let up = if along.y.abs() > 0.99 {
-            DVec3::Z
-        } else {
-            DVec3::Y
-        };
+        let up = if along.y.abs() > 0.99 { DVec3::Z } else { DVec3::Y };
         view::look_to_mat4(eye, along, up)
     }
 
@@ -117,19 +96,13 @@ impl Light {
     /// for a spot.
     #[must_use]
     pub fn half_spaces(&self, origin: DVec3) -> Vec<HalfSpace> {
-        let Self::Spot {
-            position,
-            cone_half_angle,
-            ..
-        } = *self
-        else {
+        let Self::Spot { position, cone_half_angle, .. } = *self else {
             return Vec::new();
         };
         let world_from_light = self.light_from_world().transpose();
         let apex = position - origin;
         let side = |i: u32| {
-            let (sin, cos) =
-                (f64::from(i) * std::f64::consts::TAU / f64::from(CONE_SIDES)).sin_cos();
+            let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / f64::from(CONE_SIDES)).sin_cos();
             let inward = DVec3::new(-cos, -sin, -cone_half_angle.tan());
             HalfSpace::through(apex, world_from_light.transform_vector3(inward))
         };
@@ -141,9 +114,7 @@ impl Light {
     pub fn towards_light(&self, position_world: DVec3) -> DVec3 {
         match *self {
             Self::Directional { direction, .. } => -direction.normalize(),
-            Self::Spot { position, .. } => {
-                (position - position_world).normalize_or(-self.direction().normalize())
-            }
+            Self::Spot { position, .. } => (position - position_world).normalize_or(-self.direction().normalize()),
         }
     }
 }
@@ -154,17 +125,8 @@ mod tests {
 
     #[test]
     fn the_light_looks_along_minus_z_of_a_rigid_right_handed_light_space() {
-        for direction in [
-            DVec3::NEG_Y,
-            DVec3::Y,
-            DVec3::X,
-            DVec3::NEG_Z,
-            DVec3::new(0.3, -2.0, 0.7),
-        ] {
-            let light = Light::Directional {
-                direction,
-                half_angle: 0.01,
-            };
+        for direction in [DVec3::NEG_Y, DVec3::Y, DVec3::X, DVec3::NEG_Z, DVec3::new(0.3, -2.0, 0.7)] {
+            let light = Light::Directional { direction, half_angle: 0.01 };
             let m = light.light_from_world();
             assert!((m.transform_vector3(direction.normalize()) - DVec3::NEG_Z).length() < 1e-12);
             assert!((m.determinant() - 1.0).abs() < 1e-12);
@@ -174,17 +136,11 @@ mod tests {
     #[test]
     fn a_spot_lets_in_its_cone_and_little_more() {
         let axis = DVec3::new(0.2, -1.0, 0.4);
-        let light = Light::Spot {
-            position: DVec3::ONE,
-            direction: axis,
-            cone_half_angle: 0.5,
-            radius_world: 0.1,
-        };
+        let light = Light::Spot { position: DVec3::ONE, direction: axis, cone_half_angle: 0.5, radius_world: 0.1 };
         let sides = light.half_spaces(DVec3::ZERO);
         let across = axis.any_orthogonal_vector().normalize();
         for turn in 0..64 {
-            let around =
-                glam::DQuat::from_axis_angle(axis.normalize(), f64::from(turn) * 0.1) * across;
+            let around = glam::DQuat::from_axis_angle(axis.normalize(), f64::from(turn) * 0.1) * across;
             let at = |angle: f64| DVec3::ONE + 3.0 * (axis.normalize() + angle.tan() * around);
             assert!(sides.iter().all(|s| s.distance(at(0.499)) > 0.0));
             assert!(sides.iter().any(|s| s.distance(at(0.512)) < 0.0));
@@ -193,10 +149,7 @@ mod tests {
 
     #[test]
     fn a_light_out_of_range_is_refused_by_name() {
-        let sun = |direction, half_angle| Light::Directional {
-            direction,
-            half_angle,
-        };
+        let sun = |direction, half_angle| Light::Directional { direction, half_angle };
         let lamp = |cone_half_angle, radius_world| Light::Spot {
             position: DVec3::ZERO,
             direction: DVec3::X,
@@ -213,20 +166,14 @@ mod tests {
             (lamp(0.5, f64::INFINITY), "radius_world"),
         ];
         for (light, name) in wrong {
-            assert!(
-                light.checked().unwrap_err().to_string().contains(name),
-                "{name}"
-            );
+            assert!(light.checked().unwrap_err().to_string().contains(name), "{name}");
         }
     }
 
     #[test]
     fn a_direction_of_any_length_is_normalised() {
         for scale in [1e-300, 1.0, 1e300] {
-            let light = Light::Directional {
-                direction: DVec3::new(0.0, -3.0, 4.0) * scale,
-                half_angle: 0.0,
-            };
+            let light = Light::Directional { direction: DVec3::new(0.0, -3.0, 4.0) * scale, half_angle: 0.0 };
             let direction = light.checked().unwrap().direction();
             assert!((direction - DVec3::new(0.0, -0.6, 0.8)).length() < 1e-12);
         }

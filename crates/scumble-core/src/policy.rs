@@ -53,16 +53,10 @@ impl Ladder {
     pub fn new(floor: u32, cap: u32) -> Self {
         let top = (cap / MULTIPLE * MULTIPLE).max(MULTIPLE);
         let bottom = floor.next_multiple_of(MULTIPLE).clamp(MULTIPLE, top);
-        let quarter_octaves = (0..).map(|i: i32| {
-            whole_texels((f64::from(i) / 4.0).exp2(), u32::MAX).next_multiple_of(MULTIPLE)
-        });
-        let between = quarter_octaves
-            .skip_while(|&n| n <= bottom)
-            .take_while(|&n| n < top);
-        let mut rungs: Vec<u32> = std::iter::once(bottom)
-            .chain(between)
-            .chain([top])
-            .collect();
+        let quarter_octaves =
+            (0..).map(|i: i32| whole_texels((f64::from(i) / 4.0).exp2(), u32::MAX).next_multiple_of(MULTIPLE));
+        let between = quarter_octaves.skip_while(|&n| n <= bottom).take_while(|&n| n < top);
+        let mut rungs: Vec<u32> = std::iter::once(bottom).chain(between).chain([top]).collect();
         rungs.dedup();
         Self { rungs }
     }
@@ -77,9 +71,7 @@ impl Ladder {
     #[must_use]
     pub fn rung(&self, resolution: f64) -> usize {
         let texels = whole_texels(resolution, u32::MAX);
-        self.rungs
-            .partition_point(|&n| n < texels)
-            .min(self.rungs.len() - 1)
+        self.rungs.partition_point(|&n| n < texels).min(self.rungs.len() - 1)
     }
 
     /// The size at an index.
@@ -117,11 +109,7 @@ impl SizePolicy {
     pub fn new(settings: &Settings) -> Result<Self, Error> {
         let settings = settings.checked()?;
         let ladder = Ladder::new(settings.floor, settings.cap);
-        Ok(Self {
-            settings,
-            ladder,
-            axes: [Axis::default(); 2],
-        })
+        Ok(Self { settings, ladder, axes: [Axis::default(); 2] })
     }
 
     /// The sizes that this policy chooses from.
@@ -139,45 +127,27 @@ impl SizePolicy {
         match demand {
             Demand::Radius(radius_world) => {
                 let radius = clamped(radius_world, self.settings.radius_min_world);
-                let wanted = [
-                    relation.resolution(extent_world.x, radius)?,
-                    relation.resolution(extent_world.y, radius)?,
-                ];
+                let wanted =
+                    [relation.resolution(extent_world.x, radius)?, relation.resolution(extent_world.y, radius)?];
                 for (axis, n) in self.axes.iter_mut().zip(wanted) {
                     axis.step(n, &self.ladder, &self.settings);
                 }
-                Ok(size_achieved(
-                    self.texels(),
-                    extent_world,
-                    Some(radius),
-                    &relation,
-                    self.ladder.top(),
-                ))
+                Ok(size_achieved(self.texels(), extent_world, Some(radius), &relation, self.ladder.top()))
             }
             Demand::Nothing => {
                 // Checks the extents, which the answer depends on.
                 relation.resolution(extent_world.x, 0.0)?;
                 relation.resolution(extent_world.y, 0.0)?;
                 for axis in &mut self.axes {
-                    *axis = Axis {
-                        rung: Some(axis.rung.unwrap_or(0)),
-                        ..Axis::default()
-                    };
+                    *axis = Axis { rung: Some(axis.rung.unwrap_or(0)), ..Axis::default() };
                 }
-                Ok(size_achieved(
-                    self.texels(),
-                    extent_world,
-                    None,
-                    &relation,
-                    self.ladder.top(),
-                ))
+                Ok(size_achieved(self.texels(), extent_world, None, &relation, self.ladder.top()))
             }
         }
     }
 
     fn texels(&self) -> [u32; 2] {
-        self.axes
-            .map(|axis| self.ladder.texels(axis.rung.unwrap_or(0)))
+        self.axes.map(|axis| self.ladder.texels(axis.rung.unwrap_or(0)))
     }
 }
 
@@ -186,35 +156,25 @@ impl Axis {
     fn step(&mut self, wanted: f64, ladder: &Ladder, settings: &Settings) {
         let target = ladder.rung(wanted);
         let Some(rung) = self.rung.filter(|&rung| rung >= target) else {
-            *self = Self {
-                rung: Some(target),
-                ..Self::default()
-            };
+            *self = Self { rung: Some(target), ..Self::default() };
             return;
         };
         if wanted > (1.0 - settings.shrink_below) * f64::from(ladder.texels(rung)) {
-            *self = Self {
-                rung: Some(rung),
-                ..Self::default()
-            };
+            *self = Self { rung: Some(rung), ..Self::default() };
             return;
         }
         self.frames_below += 1;
         self.largest_below = self.largest_below.max(wanted);
         if self.frames_below >= settings.shrink_after_frames {
             let lowest = rung.saturating_sub(settings.shrink_rungs as usize);
-            *self = Self {
-                rung: Some(ladder.rung(self.largest_below).max(lowest)),
-                ..Self::default()
-            };
+            *self = Self { rung: Some(ladder.rung(self.largest_below).max(lowest)), ..Self::default() };
         }
     }
 }
 
 /// The larger of two radii; keeps NaN and a minus sign, for the relation to refuse.
 fn clamped(radius: f64, least: f64) -> f64 {
-    if radius >= least && radius.is_sign_positive() || radius.is_nan() || radius.is_sign_negative()
-    {
+    if radius >= least && radius.is_sign_positive() || radius.is_nan() || radius.is_sign_negative() {
         radius
     } else {
         least
@@ -230,14 +190,9 @@ pub fn size_achieved(
     relation: &Relation,
     cap: u32,
 ) -> Size {
-    let texel =
-        (extent_world / DVec2::new(f64::from(texels[0]), f64::from(texels[1]))).max_element();
-    let wanted = |extent: f64, radius: f64| {
-        whole_texels(
-            relation.resolution(extent, radius).unwrap_or(f64::INFINITY),
-            u32::MAX,
-        )
-    };
+    let texel = (extent_world / DVec2::new(f64::from(texels[0]), f64::from(texels[1]))).max_element();
+    let wanted =
+        |extent: f64, radius: f64| whole_texels(relation.resolution(extent, radius).unwrap_or(f64::INFINITY), u32::MAX);
     let capped = radius_world.is_some_and(|r| wanted(extent_world.max_element(), r) > cap);
     Size {
         texels,

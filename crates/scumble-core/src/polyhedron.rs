@@ -24,10 +24,7 @@ impl HalfSpace {
     #[must_use]
     pub fn through(point: DVec3, inward: DVec3) -> Self {
         let normal = inward.normalize();
-        Self {
-            normal,
-            offset: -normal.dot(point),
-        }
+        Self { normal, offset: -normal.dot(point) }
     }
 
     /// Unit normal of the boundary, pointing inside.
@@ -54,20 +51,9 @@ impl Polyhedron {
     /// [`Aabb::corners`](crate::Aabb::corners). Corners may coincide.
     #[must_use]
     pub fn from_corners(corners: [DVec3; 8]) -> Self {
-        const FACES: [[usize; 4]; 6] = [
-            [0, 2, 6, 4],
-            [1, 5, 7, 3],
-            [0, 4, 5, 1],
-            [2, 3, 7, 6],
-            [0, 1, 3, 2],
-            [4, 6, 7, 5],
-        ];
-        Self {
-            faces: FACES
-                .iter()
-                .map(|face| face.iter().map(|&i| corners[i]).collect())
-                .collect(),
-        }
+        const FACES: [[usize; 4]; 6] =
+            [[0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6], [0, 1, 3, 2], [4, 6, 7, 5]];
+        Self { faces: FACES.iter().map(|face| face.iter().map(|&i| corners[i]).collect()).collect() }
     }
 
     /// Whether it holds no point.
@@ -115,16 +101,12 @@ impl Polyhedron {
     /// The part of the body inside all of `sides`.
     #[must_use]
     pub fn clip_all(&self, sides: &[HalfSpace]) -> Self {
-        sides
-            .iter()
-            .fold(self.clone(), |body, side| body.clip(side))
+        sides.iter().fold(self.clone(), |body, side| body.clip(side))
     }
 
     /// Largest distance of a vertex from the origin, the scale of rounding.
     fn size(&self) -> f64 {
-        self.vertices()
-            .map(|p| p.abs().max_element())
-            .fold(0.0, f64::max)
+        self.vertices().map(|p| p.abs().max_element()).fold(0.0, f64::max)
     }
 }
 
@@ -153,10 +135,7 @@ fn clip_face(face: &[DVec3], distance: impl Fn(DVec3) -> f64, cut: &mut Vec<DVec
 /// one stays.
 fn convex_loop(points: Vec<DVec3>, normal: DVec3, tolerance: f64) -> Vec<DVec3> {
     let (x_axis, y_axis) = normal.any_orthonormal_pair();
-    let mut plane: Vec<(f64, f64, DVec3)> = points
-        .iter()
-        .map(|&p| (p.dot(x_axis), p.dot(y_axis), p))
-        .collect();
+    let mut plane: Vec<(f64, f64, DVec3)> = points.iter().map(|&p| (p.dot(x_axis), p.dot(y_axis), p)).collect();
     plane.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     plane.dedup_by(|a, b| a.2.distance_squared(b.2) <= tolerance * tolerance);
     if plane.len() < 3 {
@@ -195,7 +174,8 @@ mod tests {
         let points: Vec<DVec3> = body.vertices().collect();
         let center = points.iter().sum::<DVec3>() / points.len() as f64;
         let fan = |face: &Vec<DVec3>| -> f64 {
-            let area: DVec3 = (1..face.len().max(1) - 1).map(|i| (face[i] - face[0]).cross(face[i + 1] - face[0])).sum();
+            let area: DVec3 =
+                (1..face.len().max(1) - 1).map(|i| (face[i] - face[0]).cross(face[i + 1] - face[0])).sum();
             area.dot(face[0] - center).abs() / 6.0
         };
         body.faces().iter().filter(|face| face.len() > 2).map(fan).sum()
@@ -234,9 +214,16 @@ mod tests {
 
     #[test]
     fn flat_and_thin_bodies_clip_like_others() {
-        let flat = Polyhedron::from_corners(Aabb { min: DVec3::new(-1.0, 0.0, -1.0), max: DVec3::new(1.0, 0.0, 1.0) }.corners());
-        let line = Polyhedron::from_corners(Aabb { min: DVec3::new(-1.0, 0.0, 0.0), max: DVec3::new(1.0, 0.0, 0.0) }.corners());
-        let cuts = [HalfSpace::through(DVec3::new(0.25, 0.0, 0.0), DVec3::new(1.0, 0.0, 0.0)), HalfSpace::through(DVec3::new(0.75, 0.0, 0.0), DVec3::NEG_X)];
+        let flat = Polyhedron::from_corners(
+            Aabb { min: DVec3::new(-1.0, 0.0, -1.0), max: DVec3::new(1.0, 0.0, 1.0) }.corners(),
+        );
+        let line = Polyhedron::from_corners(
+            Aabb { min: DVec3::new(-1.0, 0.0, 0.0), max: DVec3::new(1.0, 0.0, 0.0) }.corners(),
+        );
+        let cuts = [
+            HalfSpace::through(DVec3::new(0.25, 0.0, 0.0), DVec3::new(1.0, 0.0, 0.0)),
+            HalfSpace::through(DVec3::new(0.75, 0.0, 0.0), DVec3::NEG_X),
+        ];
         for body in [flat, line] {
             let bounds = Aabb::from_points(body.clip_all(&cuts).vertices());
             assert!((bounds.min.x - 0.25).abs() < 1e-12 && (bounds.max.x - 0.75).abs() < 1e-12);

@@ -40,11 +40,7 @@ impl Relation {
     /// units, by the t quantile 2.262 of nine degrees of freedom, times 3.47.
     #[must_use]
     pub fn published() -> Self {
-        Self {
-            ratio: 3.47,
-            standard_error: 0.32,
-            ci95: [2.8, 4.25],
-        }
+        Self { ratio: 3.47, standard_error: 0.32, ci95: [2.8, 4.25] }
     }
 
     /// A relation from its numbers.
@@ -53,12 +49,7 @@ impl Relation {
     /// Names a ratio that is not above 0 and at most 64, a standard error that is not 0 or above, an interval that does not
     /// enclose the ratio.
     pub fn new(ratio: f64, standard_error: f64, ci95: [f64; 2]) -> Result<Self, Error> {
-        check(
-            "the ratio",
-            ratio,
-            ratio > 0.0 && ratio <= RATIO_MAX,
-            "a number above 0, at most 64",
-        )?;
+        check("the ratio", ratio, ratio > 0.0 && ratio <= RATIO_MAX, "a number above 0, at most 64")?;
         not_negative("the ratio's standard_error", standard_error)?;
         check(
             "the ratio's ci95[0]",
@@ -67,17 +58,8 @@ impl Relation {
             "a number above 0, at most the ratio",
         )?;
         let upper = ci95[1].is_finite() && ci95[1] >= ratio;
-        check(
-            "the ratio's ci95[1]",
-            ci95[1],
-            upper,
-            "a finite number, at least the ratio",
-        )?;
-        Ok(Self {
-            ratio,
-            standard_error,
-            ci95,
-        })
+        check("the ratio's ci95[1]", ci95[1], upper, "a finite number, at least the ratio")?;
+        Ok(Self { ratio, standard_error, ci95 })
     }
 
     /// A ratio taken as exact, such as one that a user chose.
@@ -179,12 +161,7 @@ mod tests {
     const CAP: u32 = 4096;
 
     fn texels(extent_world: f64, radius_world: f64) -> u32 {
-        whole_texels(
-            Relation::published()
-                .resolution(extent_world, radius_world)
-                .unwrap(),
-            CAP,
-        )
+        whole_texels(Relation::published().resolution(extent_world, radius_world).unwrap(), CAP)
     }
 
     #[test]
@@ -194,17 +171,12 @@ mod tests {
         let extent_world = 237.0 / 3.47;
         assert!((extent_world / radius_world - 68.3_f64).abs() < 1e-3);
         assert_eq!(texels(extent_world, radius_world), 237);
-        let fitted = [
-            texels(extent_world / 4.31, radius_world),
-            texels(extent_world / 3.95, radius_world),
-        ];
+        let fitted = [texels(extent_world / 4.31, radius_world), texels(extent_world / 3.95, radius_world)];
         assert_eq!(fitted, [55, 60]);
         let fewer = f64::from(237 * 237) / f64::from(fitted[0] * fitted[1]);
         assert_eq!(fewer.round(), 17.0);
         // In UV: r_uv = (r_world / L) s.
-        let in_uv = Relation::published()
-            .resolution_uv(radius_world / extent_world * 4.31)
-            .unwrap();
+        let in_uv = Relation::published().resolution_uv(radius_world / extent_world * 4.31).unwrap();
         assert_eq!(whole_texels(in_uv, CAP), 55);
     }
 
@@ -229,50 +201,20 @@ mod tests {
         let relation = Relation::published();
         let wrong_radius = [-1.0, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
         for radius in wrong_radius {
-            assert!(
-                relation
-                    .resolution(1.0, radius)
-                    .unwrap_err()
-                    .to_string()
-                    .contains("radius_world"),
-                "{radius}"
-            );
-            assert!(
-                relation
-                    .resolution_uv(radius)
-                    .unwrap_err()
-                    .to_string()
-                    .contains("radius_uv"),
-                "{radius}"
-            );
+            assert!(relation.resolution(1.0, radius).unwrap_err().to_string().contains("radius_world"), "{radius}");
+            assert!(relation.resolution_uv(radius).unwrap_err().to_string().contains("radius_uv"), "{radius}");
         }
         for extent in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(
-                relation
-                    .resolution(extent, 1.0)
-                    .unwrap_err()
-                    .to_string()
-                    .contains("extent_world"),
-                "{extent}"
-            );
+            assert!(relation.resolution(extent, 1.0).unwrap_err().to_string().contains("extent_world"), "{extent}");
         }
         for ratio in [0.0, -3.47, 64.5, f64::NAN, f64::INFINITY] {
-            assert!(
-                Relation::exact(ratio)
-                    .unwrap_err()
-                    .to_string()
-                    .contains("ratio"),
-                "{ratio}"
-            );
+            assert!(Relation::exact(ratio).unwrap_err().to_string().contains("ratio"), "{ratio}");
         }
         assert!(Relation::new(3.0, f64::NAN, [2.0, 4.0]).is_err());
         assert!(Relation::new(3.0, 0.1, [3.1, 4.0]).is_err());
         assert!(Relation::new(3.0, 0.1, [2.0, f64::NAN]).is_err());
         let message = relation.resolution(1.0, -0.0).unwrap_err().to_string();
-        assert_eq!(
-            message,
-            "radius_world is -0.0; allowed is a finite number, 0 or above, without a minus sign"
-        );
+        assert_eq!(message, "radius_world is -0.0; allowed is a finite number, 0 or above, without a minus sign");
     }
 
     #[test]
@@ -298,10 +240,7 @@ mod tests {
         let relation = Relation::published();
         for n in 7..=CAP {
             let radius_f32 = 3.47_f32 / n as f32;
-            assert_eq!(
-                whole_texels(relation.resolution_uv(f64::from(radius_f32)).unwrap(), CAP),
-                n
-            );
+            assert_eq!(whole_texels(relation.resolution_uv(f64::from(radius_f32)).unwrap(), CAP), n);
         }
         assert_eq!(whole_texels(100.001, CAP), 101);
         assert_eq!(whole_texels(0.0, CAP), 1);
@@ -313,10 +252,7 @@ mod tests {
         let relation = Relation::published();
         let [lo, hi] = relation.ci95();
         let from_interval = relation.ratio() * (hi / lo).ln() / 2.0 / 2.262;
-        assert!(
-            (from_interval - relation.standard_error()).abs() < 0.005,
-            "{from_interval}"
-        );
+        assert!((from_interval - relation.standard_error()).abs() < 0.005, "{from_interval}");
     }
 
     proptest! {

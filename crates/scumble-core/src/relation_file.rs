@@ -112,11 +112,8 @@ impl RelationFile {
     /// A file that holds a relation and no more.
     #[must_use]
     pub fn of(relation: &Relation) -> Self {
-        let ratio = Estimate {
-            value: relation.ratio(),
-            standard_error: relation.standard_error(),
-            ci95: relation.ci95(),
-        };
+        let ratio =
+            Estimate { value: relation.ratio(), standard_error: relation.standard_error(), ci95: relation.ci95() };
         Self {
             schema: SCHEMA.to_owned(),
             ratio,
@@ -140,20 +137,10 @@ impl RelationFile {
         let tree: Value = serde_json::from_str(json)?;
         check_schema(&tree)?;
         check_estimate(&tree["ratio"], "ratio")?;
-        for (i, point) in tree["population"]
-            .as_array()
-            .into_iter()
-            .flatten()
-            .enumerate()
-        {
+        for (i, point) in tree["population"].as_array().into_iter().flatten().enumerate() {
             let path = format!("population[{i}]");
             check_estimate(&point["ratio"], &format!("{path}.ratio"))?;
-            number(
-                &point["viewers"],
-                &format!("{path}.viewers"),
-                |x| x > 0.0 && x < 1.0,
-                "a share between 0 and 1",
-            )?;
+            number(&point["viewers"], &format!("{path}.viewers"), |x| x > 0.0 && x < 1.0, "a share between 0 and 1")?;
             number(
                 &point["detection"],
                 &format!("{path}.detection"),
@@ -188,20 +175,13 @@ impl RelationFile {
     /// [`Error::Field`] when the curve has no such point.
     pub fn relation_for(&self, viewers: f64, detection: f64) -> Result<Relation, Error> {
         let same = |a: f64, b: f64| (a - b).abs() < 1e-9;
-        let point = self
-            .population
-            .iter()
-            .find(|p| same(p.viewers, viewers) && same(p.detection, detection));
+        let point = self.population.iter().find(|p| same(p.viewers, viewers) && same(p.detection, detection));
         let point = point.ok_or_else(|| Error::Field {
             field: "population".to_owned(),
             found: format!("without viewers {viewers} at detection {detection}"),
             allowed: "a point of the file's population curve",
         })?;
-        Relation::new(
-            point.ratio.value,
-            point.ratio.standard_error,
-            point.ratio.ci95,
-        )
+        Relation::new(point.ratio.value, point.ratio.standard_error, point.ratio.ci95)
     }
 }
 
@@ -209,71 +189,34 @@ fn check_schema(tree: &Value) -> Result<(), Error> {
     if tree["schema"].as_str() == Some(SCHEMA) {
         return Ok(());
     }
-    Err(Error::Field {
-        field: "schema".to_owned(),
-        found: found(&tree["schema"]),
-        allowed: "\"scumble/relation/1\"",
-    })
+    Err(Error::Field { field: "schema".to_owned(), found: found(&tree["schema"]), allowed: "\"scumble/relation/1\"" })
 }
 
 fn check_estimate(tree: &Value, path: &str) -> Result<(), Error> {
     let in_range = |x: f64| x > 0.0 && x <= RATIO_MAX;
-    let value = number(
-        &tree["value"],
-        &format!("{path}.value"),
-        in_range,
-        RATIO_ALLOWED,
-    )?;
-    number(
-        &tree["standard_error"],
-        &format!("{path}.standard_error"),
-        |x| x >= 0.0,
-        "a finite number, 0 or above",
-    )?;
+    let value = number(&tree["value"], &format!("{path}.value"), in_range, RATIO_ALLOWED)?;
+    number(&tree["standard_error"], &format!("{path}.standard_error"), |x| x >= 0.0, "a finite number, 0 or above")?;
     let ends = tree["ci95"].as_array().filter(|ends| ends.len() == 2);
     let ends = ends.ok_or_else(|| Error::Field {
         field: format!("{path}.ci95"),
         found: found(&tree["ci95"]),
         allowed: "two numbers",
     })?;
-    number(
-        &ends[0],
-        &format!("{path}.ci95[0]"),
-        |x| x > 0.0 && x <= value,
-        "a number above 0, at most the value",
-    )?;
-    number(
-        &ends[1],
-        &format!("{path}.ci95[1]"),
-        |x| x >= value,
-        "a finite number, at least the value",
-    )?;
+    number(&ends[0], &format!("{path}.ci95[0]"), |x| x > 0.0 && x <= value, "a number above 0, at most the value")?;
+    number(&ends[1], &format!("{path}.ci95[1]"), |x| x >= value, "a finite number, at least the value")?;
     Ok(())
 }
 
 /// The finite number at a path, or an error that names the path.
-fn number(
-    tree: &Value,
-    path: &str,
-    holds: impl Fn(f64) -> bool,
-    allowed: &'static str,
-) -> Result<f64, Error> {
+fn number(tree: &Value, path: &str, holds: impl Fn(f64) -> bool, allowed: &'static str) -> Result<f64, Error> {
     match tree.as_f64() {
         Some(x) if x.is_finite() && holds(x) => Ok(x),
-        _ => Err(Error::Field {
-            field: path.to_owned(),
-            found: found(tree),
-            allowed,
-        }),
+        _ => Err(Error::Field { field: path.to_owned(), found: found(tree), allowed }),
     }
 }
 
 fn found(tree: &Value) -> String {
-    if tree.is_null() {
-        "missing or null".to_owned()
-    } else {
-        tree.to_string()
-    }
+    if tree.is_null() { "missing or null".to_owned() } else { tree.to_string() }
 }
 
 #[cfg(test)]
@@ -287,31 +230,15 @@ mod tests {
     #[test]
     fn a_file_survives_writing_and_reading() {
         let mut written = RelationFile::of(&Relation::published());
-        let ratio = Estimate {
-            value: 9.7,
-            standard_error: 1.0,
-            ci95: [8.0, 11.9],
-        };
-        written.population.push(PopulationPoint {
-            viewers: 0.95,
-            detection: 0.1,
-            ratio,
-        });
-        written.sessions.push(SessionHash {
-            session: "p01".to_owned(),
-            sha256: "00ff".to_owned(),
-        });
+        let ratio = Estimate { value: 9.7, standard_error: 1.0, ci95: [8.0, 11.9] };
+        written.population.push(PopulationPoint { viewers: 0.95, detection: 0.1, ratio });
+        written.sessions.push(SessionHash { session: "p01".to_owned(), sha256: "00ff".to_owned() });
         written.people = Some(10);
         let read = RelationFile::from_json(&written.to_json().unwrap()).unwrap();
         assert_eq!(read, written);
         assert_eq!(read.relation().unwrap(), Relation::published());
         assert_eq!(read.relation_for(0.95, 0.1).unwrap().ratio(), 9.7);
-        assert!(
-            read.relation_for(0.95, 0.2)
-                .unwrap_err()
-                .to_string()
-                .contains("population")
-        );
+        assert!(read.relation_for(0.95, 0.2).unwrap_err().to_string().contains("population"));
     }
 
     #[test]
@@ -321,29 +248,20 @@ mod tests {
         let damaged = [
             (file(good).replace("relation/1", "relation/2"), "\"schema\""),
             (file(good).replace("\"schema\"", "\"scheme\""), "\"schema\""),
-            (
-                file(r#"{"standard_error": 0.3, "ci95": [2.9, 4.1]}"#),
-                "\"ratio.value\"",
-            ),
+            (file(r#"{"standard_error": 0.3, "ci95": [2.9, 4.1]}"#), "\"ratio.value\""),
             (file(&good.replace("3.5", "0")), "\"ratio.value\""),
             (file(&good.replace("3.5", "-3.5")), "\"ratio.value\""),
             (file(&good.replace("3.5", "64.1")), "\"ratio.value\""),
             (file(&good.replace("3.5", "null")), "\"ratio.value\""),
             (file(&good.replace("3.5", "\"3.5\"")), "\"ratio.value\""),
-            (
-                file(&good.replace("0.3", "-0.3")),
-                "\"ratio.standard_error\"",
-            ),
+            (file(&good.replace("0.3", "-0.3")), "\"ratio.standard_error\""),
             (file(&good.replace("2.9", "3.6")), "\"ratio.ci95[0]\""),
             (file(&good.replace("4.1", "3.4")), "\"ratio.ci95[1]\""),
             (file(&good.replace("[2.9, 4.1]", "[2.9]")), "\"ratio.ci95\""),
         ];
         for (json, field) in damaged {
             let message = RelationFile::from_json(&json).unwrap_err().to_string();
-            assert!(
-                message.contains(field) && message.contains("allowed"),
-                "{message}"
-            );
+            assert!(message.contains(field) && message.contains("allowed"), "{message}");
         }
         for json in ["", "[]", &file("NaN"), &file(&good.replace("3.5", "1e999"))] {
             assert!(RelationFile::from_json(json).is_err(), "{json}");

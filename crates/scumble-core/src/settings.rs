@@ -98,33 +98,13 @@ impl Settings {
     /// Names the value and what is allowed.
     pub fn checked(&self) -> Result<Self, Error> {
         let (cap, floor) = (f64::from(self.cap), f64::from(self.floor));
-        check(
-            "cap",
-            cap,
-            (8..=Self::CAP_MAX).contains(&self.cap),
-            "8 to 32768 texels",
-        )?;
-        check(
-            "floor",
-            floor,
-            self.floor >= 8 && self.floor <= self.cap,
-            "8 texels to the cap",
-        )?;
+        check("cap", cap, (8..=Self::CAP_MAX).contains(&self.cap), "8 to 32768 texels")?;
+        check("floor", floor, self.floor >= 8 && self.floor <= self.cap, "8 texels to the cap")?;
         not_negative("texel_floor_world", self.texel_floor_world)?;
         not_negative("footprint_kappa", self.footprint_kappa)?;
         not_negative("radius_min_world", self.radius_min_world)?;
-        check(
-            "shrink_below",
-            self.shrink_below,
-            (0.0..1.0).contains(&self.shrink_below),
-            "a share from 0 to below 1",
-        )?;
-        check(
-            "shrink_rungs",
-            f64::from(self.shrink_rungs),
-            self.shrink_rungs > 0,
-            "1 or more",
-        )?;
+        check("shrink_below", self.shrink_below, (0.0..1.0).contains(&self.shrink_below), "a share from 0 to below 1")?;
+        check("shrink_rungs", f64::from(self.shrink_rungs), self.shrink_rungs > 0, "1 or more")?;
         self.bias.checked()?;
         Ok(self.clone())
     }
@@ -135,9 +115,7 @@ impl Settings {
     #[must_use]
     pub fn demand_radius_world(&self, filter_radius_world: f64, pixel_footprint_world: f64) -> f64 {
         let texel = (self.footprint_kappa * pixel_footprint_world).max(self.texel_floor_world);
-        filter_radius_world
-            .max(self.relation.radius_from_texel(texel))
-            .max(self.radius_min_world)
+        filter_radius_world.max(self.relation.radius_from_texel(texel)).max(self.radius_min_world)
     }
 }
 
@@ -152,8 +130,7 @@ pub fn pixel_footprint_world(
     picture_height_px: u32,
 ) -> f64 {
     let view_depth = (position_world - camera.eye).dot(camera.forward());
-    let at_receiver =
-        view_depth * camera.height_at_unit_distance() / f64::from(picture_height_px.max(1));
+    let at_receiver = view_depth * camera.height_at_unit_distance() / f64::from(picture_height_px.max(1));
     at_receiver * fit.reference_from_depth(fit.depth(position_world))
 }
 
@@ -171,67 +148,17 @@ mod tests {
         let good = Settings::default;
         let wrong = [
             (Settings { cap: 7, ..good() }, "cap"),
-            (
-                Settings {
-                    cap: 1 << 20,
-                    ..good()
-                },
-                "cap",
-            ),
+            (Settings { cap: 1 << 20, ..good() }, "cap"),
             (Settings { floor: 4, ..good() }, "floor"),
-            (
-                Settings {
-                    cap: 16,
-                    floor: 32,
-                    ..good()
-                },
-                "floor",
-            ),
-            (
-                Settings {
-                    texel_floor_world: -1.0,
-                    ..good()
-                },
-                "texel_floor_world",
-            ),
-            (
-                Settings {
-                    footprint_kappa: f64::NAN,
-                    ..good()
-                },
-                "footprint_kappa",
-            ),
-            (
-                Settings {
-                    radius_min_world: f64::INFINITY,
-                    ..good()
-                },
-                "radius_min_world",
-            ),
-            (
-                Settings {
-                    shrink_below: 1.0,
-                    ..good()
-                },
-                "shrink_below",
-            ),
-            (
-                Settings {
-                    shrink_rungs: 0,
-                    ..good()
-                },
-                "shrink_rungs",
-            ),
+            (Settings { cap: 16, floor: 32, ..good() }, "floor"),
+            (Settings { texel_floor_world: -1.0, ..good() }, "texel_floor_world"),
+            (Settings { footprint_kappa: f64::NAN, ..good() }, "footprint_kappa"),
+            (Settings { radius_min_world: f64::INFINITY, ..good() }, "radius_min_world"),
+            (Settings { shrink_below: 1.0, ..good() }, "shrink_below"),
+            (Settings { shrink_rungs: 0, ..good() }, "shrink_rungs"),
         ];
         for (settings, name) in wrong {
-            assert!(
-                settings
-                    .checked()
-                    .unwrap_err()
-                    .to_string()
-                    .starts_with(name),
-                "{name}"
-            );
+            assert!(settings.checked().unwrap_err().to_string().starts_with(name), "{name}");
         }
         assert!(Filter::Pcf { radius_world: 0.0 }.checked().is_err());
     }
@@ -242,11 +169,7 @@ mod tests {
         let radius = settings.demand_radius_world(0.0, 0.01);
         assert!((settings.relation.texel_from_radius(radius) - 0.01).abs() < 1e-15);
         assert_eq!(settings.demand_radius_world(2.0, 0.01), 2.0);
-        let floored = Settings {
-            texel_floor_world: 0.1,
-            radius_min_world: 0.4,
-            ..settings
-        };
+        let floored = Settings { texel_floor_world: 0.1, radius_min_world: 0.4, ..settings };
         assert_eq!(floored.demand_radius_world(0.0, 0.01), 0.4);
     }
 }

@@ -24,12 +24,7 @@ impl Frame {
     /// The light space of `light`, about `origin` in world space.
     pub(super) fn new(light: Light, origin: DVec3) -> Self {
         let light_from_world = light.light_from_world();
-        Self {
-            light,
-            origin,
-            light_from_world,
-            origin_light: light_from_world.transform_point3(origin),
-        }
+        Self { light, origin, light_from_world, origin_light: light_from_world.transform_point3(origin) }
     }
 
     fn light_from_local(&self, p: DVec3) -> DVec3 {
@@ -49,9 +44,7 @@ impl Frame {
     /// Smallest and largest depth; infinite and negative infinite of an empty body.
     pub(super) fn depth_range(&self, body: &Polyhedron) -> (f64, f64) {
         let depths = body.vertices().map(|p| -self.light_from_local(p).z);
-        depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), d| {
-            (lo.min(d), hi.max(d))
-        })
+        depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), d| (lo.min(d), hi.max(d)))
     }
 
     /// The part of the scene in the light's volume with its depth range, a spot's cut at its near plane.
@@ -97,9 +90,7 @@ impl Frame {
                 let middle = min + 0.5 * (max - min);
                 (middle - half, middle + half)
             }
-            Light::Spot {
-                cone_half_angle, ..
-            } => {
+            Light::Spot { cone_half_angle, .. } => {
                 let half = DVec2::splat(reference * cone_half_angle.tan());
                 (-half, half)
             }

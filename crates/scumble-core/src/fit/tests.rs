@@ -10,12 +10,7 @@ use crate::{Aabb, Camera, Light};
 
 fn scene_sides(scene: &Aabb) -> Vec<HalfSpace> {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    let side = |axis| {
-        [
-            HalfSpace::through(scene.min, axis),
-            HalfSpace::through(scene.max, -axis),
-        ]
-    };
+    let side = |axis| [HalfSpace::through(scene.min, axis), HalfSpace::through(scene.max, -axis)];
     axes.into_iter().flat_map(side).collect()
 }
 
@@ -24,17 +19,9 @@ fn receiver_sides(camera: &Camera, scene: &Aabb, light: &Light, fit: &Fit) -> Ve
     let mut sides = scene_sides(scene);
     sides.extend(camera.half_spaces(DVec3::ZERO));
     sides.extend(light.half_spaces(DVec3::ZERO));
-    if let Light::Spot {
-        position,
-        direction,
-        ..
-    } = *light
-    {
+    if let Light::Spot { position, direction, .. } = *light {
         let axis = direction.normalize();
-        sides.push(HalfSpace::through(
-            position + fit.depth_near * axis,
-            axis,
-        ));
+        sides.push(HalfSpace::through(position + fit.depth_near * axis, axis));
     }
     sides
 }
@@ -50,8 +37,7 @@ fn vertices(sides: &[HalfSpace]) -> Vec<DVec3> {
                 if planes.determinant().abs() < 1e-9 {
                     continue;
                 }
-                let offsets =
-                    DVec3::new(a.distance(DVec3::ZERO), b.distance(DVec3::ZERO), c.distance(DVec3::ZERO));
+                let offsets = DVec3::new(a.distance(DVec3::ZERO), b.distance(DVec3::ZERO), c.distance(DVec3::ZERO));
                 let p = planes.inverse() * -offsets;
                 if sides.iter().all(|side| side.distance(p) >= -1e-7) {
                     found.push(p);
@@ -218,12 +204,17 @@ fn assert_usable(fit: &Fit) {
 #[test]
 fn degenerate_views_have_a_usable_map() {
     let inside = |eye| Camera { eye, target: DVec3::new(0.0, 0.0, -1.0), ..observer() };
-    let spot = |position: DVec3, direction| Light::Spot { position, direction, cone_half_angle: 0.7, radius_world: 0.1 };
+    let spot =
+        |position: DVec3, direction| Light::Spot { position, direction, cone_half_angle: 0.7, radius_world: 0.1 };
     let camera = observer();
     let sun_along = Light::Directional { direction: camera.forward(), half_angle: 0.01 };
     let cases = [
         ("the light shines along the view", camera, sun_along),
-        ("the light shines against the view", camera, Light::Directional { direction: -camera.forward(), half_angle: 0.01 }),
+        (
+            "the light shines against the view",
+            camera,
+            Light::Directional { direction: -camera.forward(), half_angle: 0.01 },
+        ),
         ("the sun is in the zenith", camera, Light::Directional { direction: DVec3::NEG_Y, half_angle: 0.0 }),
         ("the lamp is in the view and shines at the camera", camera, spot(DVec3::ZERO, camera.eye)),
         ("the lamp is in the view and shines away", camera, spot(DVec3::ZERO, camera.forward())),
@@ -265,10 +256,7 @@ fn flat_thin_and_one_point_scenes_have_a_usable_map() {
 
 #[test]
 fn a_flat_floor_is_fitted_as_tightly_as_a_thin_one() {
-    let floor = |thickness: f64| Aabb {
-        min: DVec3::new(-40.0, -thickness, -40.0),
-        max: DVec3::new(40.0, 0.0, 40.0),
-    };
+    let floor = |thickness: f64| Aabb { min: DVec3::new(-40.0, -thickness, -40.0), max: DVec3::new(40.0, 0.0, 40.0) };
     for light in [sun(), lamp()] {
         let flat = fit(&observer(), &floor(0.0), &light, true).unwrap().unwrap();
         let thin = fit(&observer(), &floor(1e-9), &light, true).unwrap().unwrap();

@@ -6,10 +6,7 @@ use super::{Fit, fit};
 use crate::{Aabb, Camera, Light};
 
 pub(crate) fn room() -> Aabb {
-    Aabb {
-        min: DVec3::new(-2.0, -0.5, -3.0),
-        max: DVec3::new(3.0, 2.5, 2.0),
-    }
+    Aabb { min: DVec3::new(-2.0, -0.5, -3.0), max: DVec3::new(3.0, 2.5, 2.0) }
 }
 
 pub(crate) fn observer() -> Camera {
@@ -25,10 +22,7 @@ pub(crate) fn observer() -> Camera {
 }
 
 pub(crate) fn sun() -> Light {
-    Light::Directional {
-        direction: DVec3::new(0.4, -1.0, -0.3),
-        half_angle: 0.05,
-    }
+    Light::Directional { direction: DVec3::new(0.4, -1.0, -0.3), half_angle: 0.05 }
 }
 
 pub(crate) fn lamp() -> Light {
