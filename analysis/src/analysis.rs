@@ -54,7 +54,7 @@ impl Analysis {
         let (mut series, mut exclusions) = (Vec::new(), left_out(&thresholds));
         let mut refusal = None;
         for (pattern, contrast) in protocol.rounds() {
-            match Series::of(pattern, contrast, &thresholds) {
+            match Series::of(pattern, contrast, &study.people, protocol) {
                 Ok(found) => series.push(found),
                 Err(reason) => {
                     exclusions.push(reason.to_string());

@@ -1,8 +1,9 @@
 //! A pattern at a contrast, over all people and texel sizes: both estimators of the ratio and the
 //! tests of the relation's form.
 //!
-//! *Ours*: per person the mean over texel sizes of the log10 ratios, then the mean over people with
-//! Student's t interval ([`MeanOverPeople`]). Sizes weigh equally, people weigh equally.
+//! *Ours*: per person one ratio, by maximum likelihood from the answers at all texel sizes
+//! ([`joint_threshold`]), then the mean of its logarithm over people with Student's t interval
+//! ([`MeanOverPeople`]). People weigh equally.
 //!
 //! *Published* (Kreuzer 2017, Eq. 5.1): the line through the origin of the mean radii over the texel
 //! sizes; arithmetic means, large texels weigh most. For log-normal people its target is the mean
@@ -11,12 +12,14 @@
 //! *Form*: per person the exponent of `r = c a^g` and the intercept of `r = c a + b`, each tested over
 //! people with Student's t. One slope per person keeps the sizes' different errors out of the test.
 
+use scumble_psychophysics::Protocol;
 use scumble_stimuli::Pattern;
 
 use crate::{
     Error,
     estimate::{MeanOverPeople, SizePoint, exponent, intercept_px, line_through_origin},
-    thresholds::{ConditionThreshold, Threshold},
+    people::{Person, Track},
+    thresholds::{joint_threshold, thresholds_of},
 };
 
 /// One person's thresholds in a series.
@@ -24,9 +27,9 @@ use crate::{
 pub struct PersonInSeries {
     /// The person's code.
     pub person: String,
-    /// Mean over texel sizes of the log10 ratio at threshold.
+    /// log10 of the ratio at threshold, from the answers at all texel sizes.
     pub log10_ratio: f64,
-    /// Variance of that mean from the answers' likelihood, log10 units squared.
+    /// Variance of that number from the answers' likelihood, log10 units squared.
     pub measurement_variance: f64,
     /// Radius at threshold for each texel size.
     pub points: Vec<SizePoint>,
@@ -64,32 +67,28 @@ pub struct Series {
 }
 
 impl Series {
-    /// The series of `pattern` at `contrast` from all thresholds.
+    /// The series of `pattern` at `contrast`. People whose answers do not carry a ratio are left out.
     ///
     /// # Errors
-    /// Fewer than two people have a threshold here.
+    /// Fewer than two people have a ratio here.
     pub fn of(
         pattern: Pattern,
         contrast: f64,
-        thresholds: &[ConditionThreshold],
+        people: &[Person],
+        protocol: &Protocol,
     ) -> Result<Self, Error> {
-        let here: Vec<_> = thresholds
-            .iter()
-            .filter(|entry| entry.condition.pattern == pattern)
-            .filter(|entry| entry.condition.contrast == contrast)
-            .collect();
-        let mut texels_px: Vec<f64> = here.iter().map(|entry| entry.condition.texel_px).collect();
+        let mut texels_px = protocol.texels_px.clone();
         texels_px.sort_by(f64::total_cmp);
-        texels_px.dedup();
-
-        let mut codes: Vec<&str> = here.iter().map(|entry| entry.person.as_str()).collect();
-        codes.sort_unstable();
-        codes.dedup();
-        let people: Vec<_> = codes.iter().filter_map(|code| person_in_series(code, &here)).collect();
-        let means: Vec<f64> = people.iter().map(|person| person.log10_ratio).collect();
-        let log10_ratio = MeanOverPeople::of(&means).map_err(|reason| {
-            let place = series_name(pattern, contrast);
-            Error::CannotFit(format!("{place}: {reason}").replace("the data cannot carry a fit: ", ""))
+        let people: Vec<_> = people
+            .iter()
+            .filter_map(|person| person_in_series(pattern, contrast, person, protocol))
+            .collect();
+        let ratios: Vec<f64> = people.iter().map(|person| person.log10_ratio).collect();
+        let log10_ratio = MeanOverPeople::of(&ratios).map_err(|reason| match reason {
+            Error::CannotFit(reason) => {
+                Error::CannotFit(format!("{}: {reason}", series_name(pattern, contrast)))
+            }
+            other => other,
         })?;
         let over_people = |statistic: fn(&[SizePoint]) -> Option<f64>| {
             let values: Vec<f64> = people.iter().filter_map(|p| statistic(&p.points)).collect();
@@ -147,22 +146,30 @@ pub(crate) fn pattern_name(pattern: Pattern) -> &'static str {
     }
 }
 
-fn person_in_series(code: &str, here: &[&ConditionThreshold]) -> Option<PersonInSeries> {
-    let found: Vec<(f64, Threshold)> = here
+fn person_in_series(
+    pattern: Pattern,
+    contrast: f64,
+    person: &Person,
+    protocol: &Protocol,
+) -> Option<PersonInSeries> {
+    let is_here = |track: &&Track| {
+        track.condition.pattern == pattern && track.condition.contrast == contrast
+    };
+    let joint = joint_threshold(person.tracks.iter().filter(is_here), protocol).ok()?;
+    let points = thresholds_of(person, protocol)
         .iter()
-        .filter(|entry| entry.person == code)
-        .filter_map(|entry| entry.threshold.ok().map(|t| (entry.condition.texel_px, t)))
+        .zip(&person.tracks)
+        .filter(|(_, track)| is_here(track))
+        .filter_map(|(entry, _)| {
+            let radius_px = entry.radius_px()?;
+            Some(SizePoint { texel_px: entry.condition.texel_px, radius_px })
+        })
         .collect();
-    let count = found.len() as f64;
-    let variance: f64 = found.iter().map(|(_, t)| t.standard_error_log10.powi(2)).sum();
-    (!found.is_empty()).then(|| PersonInSeries {
-        person: code.to_owned(),
-        log10_ratio: found.iter().map(|(_, t)| t.log10_ratio).sum::<f64>() / count,
-        measurement_variance: variance / count.powi(2),
-        points: found
-            .iter()
-            .map(|&(texel_px, t)| SizePoint { texel_px, radius_px: t.ratio() * texel_px })
-            .collect(),
+    Some(PersonInSeries {
+        person: person.code.clone(),
+        log10_ratio: joint.log10_ratio,
+        measurement_variance: joint.standard_error_log10.powi(2),
+        points,
     })
 }
 

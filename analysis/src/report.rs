@@ -1,0 +1,241 @@
+//! `report.html`: what the study found, for a reader who was not there. One file without references to
+//! others.
+
+use std::fmt::Write;
+
+use crate::{
+    Error,
+    analysis::{Analysis, SOFTWARE},
+    estimate::MeanOverPeople,
+    people::Study,
+    population::{DETECTIONS, SLOPE_CI95, VIEWERS},
+    series::Series,
+};
+
+/// File name of the report.
+pub const REPORT: &str = "report.html";
+/// By this a re-run knows its own report.
+pub const REPORT_MARK: &str = "<meta name=\"generator\" content=\"scumble-analysis\">";
+
+/// Head and style of the page.
+const HEAD: &str = include_str!("report.html");
+
+/// The whole page. `fit` and `staircases` are figures as SVG.
+///
+/// # Errors
+/// Those of the population curve.
+pub fn report_html(
+    study: &Study,
+    analysis: &Analysis,
+    fit: &str,
+    staircases: &str,
+) -> Result<String, Error> {
+    let mut page = HEAD.to_owned();
+    page += &result(study, analysis);
+    page += &format!("<h2>Thresholds and the two lines</h2>\n{fit}\n");
+    page += &conditions(analysis);
+    page += &form(analysis.worst());
+    page += &population(analysis)?;
+    page += &people(analysis);
+    page += &format!("<h2>One person's tracks</h2>\n{staircases}\n");
+    page += &left_out(study, analysis);
+    page += &method(study, analysis);
+    page += &sources(study);
+    page += "</body>\n</html>\n";
+    Ok(page)
+}
+
+/// The number, who it is about, and how sure it is.
+fn result(study: &Study, analysis: &Analysis) -> String {
+    let worst = analysis.worst();
+    let [low, high] = worst.ratio_ci95();
+    let who = if study.is_simulated() { "simulated people" } else { "people" };
+    let simulated = match study.is_simulated() {
+        true => "<p class=\"notice\">Every answer comes from a <strong>simulated</strong> observer. \
+                 This page shows that the method works, not what people see.</p>\n",
+        false => "",
+    };
+    format!(
+        "<h1>Radius to texel</h1>\n<p>How large must a filter's radius be, in texels of the shadow \
+         map, until the texels under a shadow's edge are hidden?</p>\n{simulated}<div \
+         class=\"result\"><b>{:.2} texels</b>95 % interval {low:.2} to {high:.2}. The median \
+         person's threshold ({:.0} % correct with two alternatives) in the worst condition, \
+         <strong>{}</strong>; {} {who} of {}, {} trials.</div>\n",
+        worst.ratio(),
+        100.0 * study.protocol.threshold_probability,
+        worst.name(),
+        worst.log10_ratio.people,
+        study.people.len(),
+        study.trial_count(),
+    )
+}
+
+fn conditions(analysis: &Analysis) -> String {
+    let mut rows = String::new();
+    for (index, series) in analysis.series.iter().enumerate() {
+        let class = if index == analysis.worst { " class=\"worst\"" } else { "" };
+        let line = &series.origin_line;
+        let line_interval = line.over_people.map_or("a person lacks a size".to_owned(), |mean| {
+            format!("{:.2} to {:.2}", mean.ci95[0], mean.ci95[1])
+        });
+        let [low, high] = series.ratio_ci95();
+        _ = writeln!(
+            rows,
+            "<tr{class}><td>{}</td><td>{}</td><td>{:.2}</td><td>{low:.2} to {high:.2}</td>\
+             <td>{:.2}</td><td>{line_interval}</td><td>{:.3}</td></tr>",
+            series.name(),
+            series.log10_ratio.people,
+            series.ratio(),
+            line.slope,
+            series.log10_ratio.standard_deviation,
+        );
+    }
+    format!(
+        "<div class=\"wide\"><table>\n<tr><th>condition</th><th>people</th><th>ratio \
+         (ours)</th><th>95 %</th><th>line through 0</th><th>95 %</th><th>SD of people, \
+         log10</th></tr>\n{rows}</table></div>\n<p class=\"note\">Ours is the median person. The \
+         published estimator (Kreuzer 2017, Eq. 5.1) is the line through the origin of the mean \
+         radii; its target is the mean person, and it inherits the bias of thresholds from few \
+         trials, so it lies higher. The worst condition is chosen after seeing the data, which \
+         overstates it slightly when two conditions are close.</p>\n"
+    )
+}
+
+fn form(worst: &Series) -> String {
+    let row = |name: &str, mean: Option<MeanOverPeople>, null: f64, unit: &str| match mean {
+        None => format!("<tr><td>{name}</td><td colspan=\"3\">needs two people with two sizes</td></tr>\n"),
+        Some(mean) => format!(
+            "<tr><td>{name}</td><td>{:.3}{unit}</td><td>{:.3} to {:.3}</td><td>{:.2}</td></tr>\n",
+            mean.mean,
+            mean.ci95[0],
+            mean.ci95[1],
+            mean.p_value(null)
+        ),
+    };
+    format!(
+        "<h2>Is it a line through the origin?</h2>\n<p>For {}. A small p speaks against the \
+         relation <i>r = c a</i>; a large one does not prove it.</p>\n<table>\n<tr><th>quantity</th>\
+         <th>estimate</th><th>95 %</th><th>p</th></tr>\n{}{}</table>\n",
+        worst.name(),
+        row("exponent g of r = c a<sup>g</sup>, against 1", worst.exponent, 1.0, ""),
+        row("intercept b of r = c a + b, against 0", worst.intercept_px, 0.0, " px"),
+    )
+}
+
+fn population(analysis: &Analysis) -> Result<String, Error> {
+    let population = &analysis.population;
+    let mut rows = String::new();
+    for viewers in VIEWERS {
+        _ = write!(rows, "<tr><td>{:.0} % of viewers</td>", viewers * 100.0);
+        for detection in DETECTIONS {
+            let point = population.ratio(viewers, detection)?;
+            let [low, high] = point.ci95;
+            _ = write!(rows, "<td>{:.1}</td><td>{low:.1} to {high:.1}</td>", point.ratio);
+        }
+        rows += "</tr>\n";
+    }
+    let header: String = DETECTIONS
+        .map(|d| format!("<th>seen on at most {:.0} %</th><th>95 %</th>", d * 100.0))
+        .concat();
+    let [low, high] = population.between_sd_ci95()?;
+    Ok(format!(
+        "<h2>Hidden from whom?</h2>\n<p>The ratio that hides the texels from a share of the viewers, \
+         when they look as hard as in the study. Standard deviation between people without \
+         measurement noise: {:.3} log10 (95 % {low:.3} to {high:.3}).</p>\n<div \
+         class=\"wide\"><table>\n<tr><th></th>{header}</tr>\n{rows}</table></div>\n<p \
+         class=\"note\">Assumes log-normal thresholds and a psychometric slope of {} per decade. The \
+         study holds the slope fixed; the intervals let it lie between {:.1} and {:.1}. Shares \
+         beyond 95 % lean on the normal distribution, not on data.</p>\n",
+        population.between_sd(),
+        population.slope,
+        population.slope * SLOPE_CI95[0],
+        population.slope * SLOPE_CI95[1],
+    ))
+}
+
+fn people(analysis: &Analysis) -> String {
+    let mut codes: Vec<&str> = analysis.thresholds.iter().map(|t| t.person.as_str()).collect();
+    codes.dedup();
+    let header: String =
+        analysis.series.iter().map(|series| format!("<th>{}</th>", series.name())).collect();
+    let mut rows = String::new();
+    for code in codes {
+        let own = analysis.thresholds.iter().filter(|entry| entry.person == code);
+        let (trials, converged, all) = own.fold((0, 0, 0), |(trials, converged, all), entry| {
+            (trials + entry.trials, converged + usize::from(entry.converged), all + 1)
+        });
+        _ = write!(rows, "<tr><td>{code}</td><td>{trials}</td><td>{converged} of {all}</td>");
+        for series in &analysis.series {
+            let ratio = series.people.iter().find(|person| person.person == code);
+            let cell = ratio.map_or("none".to_owned(), |person| {
+                let error = person.measurement_variance.sqrt();
+                let factor = 10_f64.powf(error);
+                format!("{:.2} &times;/ {factor:.2}", 10_f64.powf(person.log10_ratio))
+            });
+            _ = write!(rows, "<td>{cell}</td>");
+        }
+        rows += "</tr>\n";
+    }
+    format!(
+        "<h2>People</h2>\n<div class=\"wide\"><table>\n<tr><th>person</th><th>trials</th>\
+         <th>converged</th>{header}</tr>\n{rows}</table></div>\n<p class=\"note\">Ratio at \
+         threshold with the factor of one standard error.</p>\n"
+    )
+}
+
+fn left_out(study: &Study, analysis: &Analysis) -> String {
+    let sentences: Vec<&String> = study.notices.iter().chain(&analysis.exclusions).collect();
+    if sentences.is_empty() {
+        return "<h2>Left out</h2>\n<p>Nothing: every condition of every person has a \
+                threshold.</p>\n"
+            .to_owned();
+    }
+    let items: String =
+        sentences.iter().map(|sentence| format!("<li>{}</li>\n", escaped(sentence))).collect();
+    format!(
+        "<h2>Left out</h2>\n<ul>\n{items}</ul>\n<p class=\"note\">A condition without a threshold \
+         of its own still adds its answers to the person's ratio.</p>\n"
+    )
+}
+
+fn method(study: &Study, analysis: &Analysis) -> String {
+    let protocol = &study.protocol;
+    let converged = analysis.thresholds.iter().filter(|entry| entry.converged).count();
+    format!(
+        "<h2>Method</h2>\n<ul>\n<li>Protocol <i>{}</i>: guess {}, lapses {}, slope {} per decade, \
+         threshold at {} correct. {converged} of {} tracks converged by the experiment's rule; the \
+         others enter too, because leaving them out would select answers.</li>\n<li>Per person and \
+         condition: maximum-likelihood Weibull function, slope, guess and lapses as in the protocol. \
+         A threshold that the answers do not bound on both sides (95 % likelihood ratio) is \
+         refused.</li>\n<li>Per person, pattern and contrast: one ratio from the answers at all texel \
+         sizes. Over people: mean of its logarithm with Student's t interval.</li>\n<li>Intervals do \
+         not cover a wrong slope, learning, or viewers unlike these.</li>\n</ul>\n",
+        escaped(&protocol.name),
+        protocol.guess_probability,
+        protocol.lapse_probability,
+        protocol.slope_per_log10,
+        protocol.threshold_probability,
+        analysis.thresholds.len(),
+    )
+}
+
+fn sources(study: &Study) -> String {
+    let rows: String = study
+        .session_hashes()
+        .iter()
+        .map(|hash| {
+            format!("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escaped(&hash.session), hash.sha256)
+        })
+        .collect();
+    format!(
+        "<h2>Sessions</h2>\n<details><summary>{} sessions with their SHA-256</summary>\n<div \
+         class=\"wide\"><table>\n{rows}</table></div></details>\n<p><small>Written by \
+         {SOFTWARE}.</small></p>\n",
+        study.sessions.len()
+    )
+}
+
+/// Text as HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
