@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn the_closed_form_shift_is_the_published_one() {
-        // reference/quest_reference_meta.json of the tables in tests/data: xThreshold_analytic.
+        // tests/data/quest_reference_meta.json: xThreshold_analytic.
         assert!((KREUZER.x_threshold() - 0.004839437105186521).abs() < 1e-14);
     }
 

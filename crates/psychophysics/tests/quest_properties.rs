@@ -1,5 +1,7 @@
 //! What QUEST promises beyond the tables: probability rules, degenerate input, long sequences.
 
+#![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
+
 use proptest::prelude::*;
 use scumble_psychophysics::{Error, Placement, Protocol, Quest, QuestConfig};
 

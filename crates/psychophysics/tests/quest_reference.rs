@@ -1,5 +1,7 @@
 //! QUEST against the tables of two other programs: every configuration, sequence, row and column.
 
+#![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
+
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 

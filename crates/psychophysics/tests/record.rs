@@ -1,5 +1,7 @@
 //! The record on disk: nothing overwritten, nothing lost, damage named, states rebuilt bit for bit.
 
+#![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -285,4 +287,34 @@ fn a_name_in_place_of_a_participant_code_is_refused_before_anything_is_written()
         assert!(error.to_string().starts_with("participant is"));
     }
     assert!(!place.directory.exists());
+}
+
+#[test]
+fn a_radius_that_another_platforms_logarithm_moved_in_its_last_digits_is_the_one_learned_from() {
+    let header = header(small_protocol());
+    let mut whole = Experiment::new(header.protocol.clone(), SEED).unwrap();
+    let events = rehearse(&mut whole, &observer()).unwrap();
+    let moved = |factor: f64| {
+        let mut events = events.clone();
+        for event in &mut events {
+            let Event::Trial(answered) = event else { continue };
+            let trial = &mut answered.trial;
+            for radius_px in [
+                &mut trial.placement_radius_px,
+                &mut trial.radius_px,
+                &mut trial.left.radius_px,
+                &mut trial.right.radius_px,
+            ] {
+                *radius_px *= factor;
+            }
+        }
+        events
+    };
+    let resumed = Experiment::resume(&header, &moved(1.0 + 1e-13)).unwrap();
+    for (resumed, whole) in resumed.tracks().iter().zip(whole.tracks()) {
+        assert_ne!(resumed.responses(), whole.responses());
+        assert_eq!(resumed.quest(), whole.quest());
+    }
+    let error = Experiment::resume(&header, &moved(1.0 + 1e-6)).unwrap_err();
+    assert!(matches!(error, Error::Replay { index: 2, .. }), "{error}");
 }

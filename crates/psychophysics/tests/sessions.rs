@@ -1,5 +1,7 @@
 //! Whole sessions through the state machine: what is shown, what is learned, what is refused.
 
+#![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
+
 use scumble_psychophysics::{
     Error, Event, Experiment, ObserverParameters, Protocol, Quest, Side, Stage, Trial, WeibullObserver, rehearse,
 };

@@ -1,5 +1,7 @@
 //! Simulated people with known thresholds: what the sessions find, and what they must not find.
 
+#![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
+
 use scumble_psychophysics::{
     Condition, Convergence, Experiment, ObserverParameters, Population, Protocol, Quest, Side, Stage, Track,
     WeibullObserver, rehearse,
