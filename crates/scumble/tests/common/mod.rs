@@ -1,6 +1,9 @@
 //! A headless device and a compute harness for the tests.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod casters;
+pub mod rig;
+
 use std::sync::OnceLock;
 
 /// A device with its queue.

@@ -1,0 +1,160 @@
+//! What a caller can get wrong is refused in words, nothing waits, and the counts are right.
+
+mod common;
+
+use common::gpu;
+use common::rig::{Rig, fixed, ground_and, slab, sun_above};
+use glam::DVec3;
+use scumble::{Error, Filter, LIGHTS_MAX, Options, Settings, Shadows, SizeChoice};
+
+fn settings(cap: u32) -> Settings {
+    Settings { cap, ..Settings::default() }
+}
+
+fn refusal(settings: Settings, options: Options) -> String {
+    Shadows::with_options(&gpu().device, settings, options).unwrap_err().to_string()
+}
+
+#[test]
+fn settings_out_of_range_are_refused_in_words() {
+    let limit = gpu().device.limits().max_texture_dimension_2d;
+    let above = refusal(settings(limit + 8), Options::default());
+    assert!(above.contains(&(limit + 8).to_string()) && above.contains(&limit.to_string()), "{above}");
+    assert!(refusal(settings(3), Options::default()).starts_with("cap is 3"));
+    let fixed_size = Options { size: SizeChoice::Fixed([0, 64]), ..Options::default() };
+    assert!(refusal(settings(128), fixed_size).contains("[0, 64]"));
+    let too_wide = Options { size: SizeChoice::Fixed([129, 64]), ..Options::default() };
+    assert!(refusal(settings(128), too_wide).contains("the cap, 128"));
+    let maps = Options { maps: LIGHTS_MAX + 1, ..Options::default() };
+    assert!(refusal(settings(128), maps).contains("5 lights"));
+    let stride = Options { measure_stride: 0, ..Options::default() };
+    assert!(refusal(settings(128), stride).contains("stride"));
+    let origin = Options { origin_world: DVec3::NAN, ..Options::default() };
+    assert!(refusal(settings(128), origin).contains("origin"));
+    let radius = Options { filter: Filter::Pcf { radius_world: -1.0 }, ..Options::default() };
+    assert!(refusal(settings(128), radius).contains("radius_world"));
+}
+
+#[test]
+fn more_lights_than_maps_and_another_number_of_maps_are_refused() {
+    let mut rig = Rig::new(settings(64), fixed(Filter::Hard, 64), &ground_and(slab(1.0, 0.0)));
+    let lights = [sun_above(0.1); 2];
+    let refused = rig.shadows.plan(&rig.camera, &rig.bounds, &lights).unwrap_err();
+    assert!(matches!(refused, Error::TooManyLights { found: 2, allocated: 1 }));
+    let changed = rig.shadows.set_options(Options { maps: 2, ..Options::default() }).unwrap_err();
+    assert!(changed.to_string().contains("fixed at creation"));
+}
+
+#[test]
+fn a_prepass_that_cannot_be_read_is_refused() {
+    let mut rig = Rig::new(settings(64), fixed(Filter::Pcss, 64), &ground_and(slab(1.0, 0.0)));
+    rig.draw(&[sun_above(0.1)]);
+    let texture = |format, usage, sample_count| {
+        let texture = gpu().device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d { width: 16, height: 16, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        });
+        texture.create_view(&wgpu::TextureViewDescriptor::default())
+    };
+    let (drawn, read) = (wgpu::TextureUsages::RENDER_ATTACHMENT, wgpu::TextureUsages::TEXTURE_BINDING);
+    let wrong = [
+        texture(wgpu::TextureFormat::Rgba8Unorm, drawn | read, 1),
+        texture(wgpu::TextureFormat::Depth32Float, drawn, 1),
+        texture(wgpu::TextureFormat::Depth32Float, drawn | read, 4),
+    ];
+    let mut encoder = gpu().encoder();
+    for prepass in wrong {
+        let refused = rig.shadows.measure(&gpu().queue, &mut encoder, &prepass, &rig.camera).unwrap_err();
+        assert!(refused.to_string().contains("Depth32Float"), "{refused}");
+    }
+    let good = texture(wgpu::TextureFormat::Depth24Plus, drawn | read, 1);
+    rig.shadows.measure(&gpu().queue, &mut encoder, &good, &rig.camera).unwrap();
+    gpu().finish(encoder);
+}
+
+#[test]
+fn reading_the_demand_never_waits_and_answers_before_the_first_result() {
+    let mut rig = Rig::new(settings(64), Options::default(), &ground_and(slab(1.0, 0.0)));
+    assert!(!rig.shadows.read_demand());
+    let plan = rig.draw(&[sun_above(0.1)]);
+    assert_eq!(rig.shadows.measured_radius_world(&plan.views()[0]), None);
+    assert_eq!(plan.views()[0].size_texels, [64, 64]);
+
+    // Encoders that are never submitted give their slots back.
+    for _ in 0..5 {
+        let mut encoder = gpu().encoder();
+        let prepass = rig.casters.draw_prepass(gpu(), &mut encoder, &rig.camera, DVec3::ZERO, [32; 2]);
+        rig.shadows.measure(&gpu().queue, &mut encoder, &prepass, &rig.camera).unwrap();
+        drop(encoder);
+        assert!(!rig.shadows.read_demand());
+    }
+    assert_eq!(rig.shadows.counters().readbacks_skipped, 0);
+
+    // A ring that nobody reads fills up; further frames go without a result.
+    for _ in 0..5 {
+        let mut encoder = gpu().encoder();
+        let prepass = rig.casters.draw_prepass(gpu(), &mut encoder, &rig.camera, DVec3::ZERO, [32; 2]);
+        rig.shadows.measure(&gpu().queue, &mut encoder, &prepass, &rig.camera).unwrap();
+        gpu().finish(encoder);
+    }
+    assert_eq!(rig.shadows.counters().readbacks_skipped, 2);
+    assert!(rig.shadows.read_demand());
+    assert!(!rig.shadows.read_demand(), "older results are dropped with the newest");
+    assert!(rig.shadows.measured_radius_world(&plan.views()[0]).is_some());
+}
+
+#[test]
+fn planning_changes_nothing_until_it_is_uploaded() {
+    let mut rig = Rig::new(settings(512), Options { filter: Filter::Pcf { radius_world: 0.3 }, ..Options::default() }, &ground_and(slab(1.0, 0.0)));
+    let lights = [sun_above(0.1)];
+    let sizes: Vec<[u32; 2]> = (0..40)
+        .map(|_| rig.shadows.plan(&rig.camera, &rig.bounds, &lights).unwrap().views()[0].size_texels)
+        .collect();
+    assert!(sizes.iter().all(|&size| size == sizes[0]));
+    let small = Options { filter: Filter::Pcf { radius_world: 2.0 }, ..rig.shadows.options().clone() };
+    rig.draw(&lights);
+    rig.shadows.set_options(small).unwrap();
+    // Shrinking takes 30 uploaded frames; planning alone does not count them.
+    for _ in 0..100 {
+        rig.shadows.plan(&rig.camera, &rig.bounds, &lights).unwrap();
+    }
+    assert_eq!(rig.draw(&lights).views()[0].size_texels, sizes[0]);
+    for _ in 0..30 {
+        rig.draw(&lights);
+    }
+    assert!(rig.draw(&lights).views()[0].size_texels[0] < sizes[0][0]);
+}
+
+#[test]
+fn the_counters_count_and_nothing_is_allocated_after_the_first_frames() {
+    let mut rig = Rig::new(settings(128), fixed(Filter::Pcss, 100), &ground_and(slab(1.0, 0.0)));
+    let lights = [sun_above(0.1)];
+    let created = rig.shadows.counters();
+    assert_eq!((created.allocations, created.map_bytes, created.map_passes), (4, 128 * 128 * 4, 0));
+    let mut encoder = gpu().encoder();
+    let prepass = rig.casters.draw_prepass(gpu(), &mut encoder, &rig.camera, DVec3::ZERO, [32; 2]);
+    gpu().finish(encoder);
+    let frame = |rig: &mut Rig| {
+        rig.draw(&lights);
+        let mut encoder = gpu().encoder();
+        rig.shadows.measure(&gpu().queue, &mut encoder, &prepass, &rig.camera).unwrap();
+        gpu().finish(encoder);
+        rig.shadows.read_demand();
+    };
+    frame(&mut rig);
+    let first = rig.shadows.counters();
+    for side in [8, 64, 128, 100] {
+        rig.shadows.set_options(fixed(Filter::Pcss, side)).unwrap();
+        frame(&mut rig);
+    }
+    let last = rig.shadows.counters();
+    assert_eq!(last.allocations, first.allocations, "sizes change, nothing is allocated");
+    assert_eq!((last.map_passes, last.measure_passes, last.readbacks_taken), (5, 5, 5));
+    assert_eq!((last.texels, last.taps_per_pixel), (100 * 100, 41));
+}
