@@ -158,6 +158,17 @@ impl Fit {
         (DVec2::splat(0.5) + self.uv_from_offset(offset), self.depth(position_world))
     }
 
+    /// Whether a point has a place in the map: inside its box, not before its near plane. What has none counts as lit.
+    #[must_use]
+    pub fn covers(&self, position_world: DVec3) -> bool {
+        let depth = self.depth(position_world);
+        if depth < self.depth_near {
+            return false;
+        }
+        let (uv, _) = self.uv_from_world(position_world);
+        uv.cmpge(DVec2::ZERO).all() && uv.cmple(DVec2::ONE).all()
+    }
+
     /// An offset on the reference plane in UV, with v down.
     #[must_use]
     pub fn uv_from_offset(&self, offset_world: DVec2) -> DVec2 {

@@ -11,7 +11,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-/// Throws that fail in a row before the distance shrinks.
+/// Throws that fail in a row before the distance shrinks. With the next constant: eight times as many throws and a third
+/// of the step gave discs of the same residual error, a quarter of the throws and twice the step of a tenth more.
 const THROWS: u32 = 400;
 
 /// By how much it shrinks.

@@ -11,6 +11,31 @@
 //! 5. The renderer draws a map of that size with [`Fit::clip_from_world`] and filters it as [`filter`] does: radius in
 //!    world units, taps of [`poisson_disc`], bias of [`ReceiverPlane`].
 //!
+//! ```
+//! use glam::{DVec3, dvec3};
+//! use scumble_core::{Aabb, Camera, Demand, Light, Settings, SizePolicy, fit};
+//!
+//! let scene = Aabb { min: dvec3(-20.0, 0.0, -20.0), max: dvec3(20.0, 6.0, 20.0) };
+//! let sun = Light::Directional { direction: dvec3(0.3, -1.0, 0.2), half_angle: 0.0047 };
+//! let camera = Camera {
+//!     eye: dvec3(0.0, 1.7, 8.0),
+//!     target: dvec3(0.0, 1.0, 0.0),
+//!     up: DVec3::Y,
+//!     vertical_fov: 0.9,
+//!     aspect: 16.0 / 9.0,
+//!     near: 0.1,
+//!     far: f64::INFINITY,
+//! };
+//! let mut policy = SizePolicy::new(&Settings::default())?;
+//! let radius_world = 0.25;
+//! if let Some(fit) = fit(&camera, &scene, &sun, true)? {
+//!     let fit = fit.with_border(radius_world);
+//!     let size = policy.next(fit.extent_world, Demand::Radius(radius_world))?;
+//!     assert!(size.texels[0] < 1024 && size.c_effective >= 3.47);
+//! }
+//! # Ok::<(), scumble_core::Error>(())
+//! ```
+//!
 //! Lengths are metres, angles radians. Matrices are named `to_from_from`: `light_from_world` takes world coordinates to
 //! light space. World space is right-handed; clip space is wgpu's. This crate knows no GPU, file, clock or window.
 //! It does not split views into cascades, and it does not snap boxes to texels.

@@ -28,6 +28,16 @@ pub enum Demand {
     Nothing,
 }
 
+impl Demand {
+    /// The demand of an atomic minimum over the bits of positive radii (Kreuzer 2017, Eq. 5.12), which keep their order
+    /// as u32. Its start value, the bits of infinity, means that nothing was written; so does all above it, NaN and
+    /// negative numbers.
+    #[must_use]
+    pub fn from_minimum_bits(bits: u32) -> Self {
+        if bits < f32::INFINITY.to_bits() { Self::Radius(f64::from(f32::from_bits(bits))) } else { Self::Nothing }
+    }
+}
+
 /// A size, and what it achieves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
@@ -295,6 +305,15 @@ mod tests {
         assert!(hard.capped && hard.texels == [4096, 4096]);
         let exact = policy().next(DVec2::ONE, asking(4096.0)).unwrap();
         assert!(!exact.capped);
+    }
+
+    #[test]
+    fn the_bits_of_a_radius_are_a_demand_and_what_sorts_above_infinity_is_none() {
+        assert_eq!(Demand::from_minimum_bits(0.25_f32.to_bits()), Demand::Radius(0.25));
+        assert_eq!(Demand::from_minimum_bits(0), Demand::Radius(0.0));
+        for nothing in [f32::INFINITY, f32::NAN, -1.0, -0.0, f32::NEG_INFINITY] {
+            assert_eq!(Demand::from_minimum_bits(nothing.to_bits()), Demand::Nothing, "{nothing}");
+        }
     }
 
     #[test]

@@ -137,6 +137,8 @@ pub fn pixel_footprint_world(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::tests_support::{observer, room};
+    use crate::{Light, fit};
 
     #[test]
     fn the_default_settings_are_allowed() {
@@ -171,5 +173,27 @@ mod tests {
         assert_eq!(settings.demand_radius_world(2.0, 0.01), 2.0);
         let floored = Settings { texel_floor_world: 0.1, radius_min_world: 0.4, ..settings };
         assert_eq!(floored.demand_radius_world(0.0, 0.01), 0.4);
+    }
+
+    #[test]
+    fn a_footprint_is_what_one_pixel_covers_of_the_reference_plane() {
+        let camera = observer();
+        let p = DVec3::new(0.3, 0.1, -0.5);
+        let along = Light::Directional { direction: camera.forward(), half_angle: 0.01 };
+        let lamp_at_eye = Light::Spot {
+            position: camera.eye - camera.forward(),
+            direction: camera.forward(),
+            cone_half_angle: 0.7,
+            radius_world: 0.1,
+        };
+        for light in [along, lamp_at_eye] {
+            let fit = fit(&camera, &room(), &light, true).unwrap().unwrap();
+            // The point one pixel of 720 higher in the picture, at the same distance.
+            let clip = camera.clip_from_world() * p.extend(1.0);
+            let higher = camera.clip_from_world().inverse() * (clip + glam::DVec4::Y * (clip.w * 2.0 / 720.0));
+            let apart = fit.plane_from_world(higher.truncate() / higher.w).distance(fit.plane_from_world(p));
+            let footprint = pixel_footprint_world(&camera, &fit, p, 720);
+            assert!((footprint / apart - 1.0).abs() < 1e-9, "{footprint} {apart}");
+        }
     }
 }

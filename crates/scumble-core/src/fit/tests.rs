@@ -148,6 +148,9 @@ fn a_fitted_map_is_smaller_by_the_scale_of_each_axis() {
         let side = fitted.extent_world * fitted.scale;
         assert!((side - square.extent_world).abs().max_element() < 1e-9);
         assert!(fitted.scale.x != fitted.scale.y);
+        // r_uv = (r_world / L) s (Kreuzer 2017, 5.1.2).
+        let radius_uv = 0.1 / square.extent_world.x * fitted.scale;
+        assert!((fitted.uv_from_offset(DVec2::splat(0.1)).abs() - radius_uv).length() < 1e-12);
     }
 }
 
@@ -163,6 +166,24 @@ fn a_border_of_the_radius_keeps_every_tap_inside() {
         assert!(wider.depth_near <= fit.depth_near);
         assert!((wider.scale * wider.extent_world - fit.scale * fit.extent_world).length() < 1e-9);
     }
+}
+
+#[test]
+fn a_point_is_covered_when_it_lies_in_the_box_and_behind_the_near_plane() {
+    for fit in [sun_over_room(), lamp_over_room()] {
+        let at = |u: f64, v: f64, depth| {
+            let offset = (DVec2::new(u, v) - 0.5) * fit.extent_world * DVec2::new(1.0, -1.0);
+            let center = fit.plane_from_world(fit.world_from_plane(DVec2::ZERO, depth));
+            fit.world_from_plane(center + fit.center + offset, depth)
+        };
+        let middle = 0.5 * (fit.depth_near + fit.depth_far);
+        assert!(fit.covers(at(0.5, 0.5, middle)) && fit.covers(at(0.01, 0.99, middle)));
+        for outside in [at(-0.01, 0.5, middle), at(0.5, 1.01, middle), at(0.5, 0.5, fit.depth_near - 0.01)] {
+            assert!(!fit.covers(outside));
+        }
+    }
+    let behind_the_lamp = DVec3::new(-0.5, 6.0, 0.5);
+    assert!(!lamp_over_room().covers(behind_the_lamp));
 }
 
 #[test]
