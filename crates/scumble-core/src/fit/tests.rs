@@ -109,19 +109,75 @@ proptest! {
     }
 
     #[test]
-    fn every_receiver_and_every_caster_before_it_is_in_the_map(camera in any_camera(), direction in vector(1.0), share in (0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64), before in 0.0..10.0_f64) {
+    fn every_point_of_the_scene_in_the_box_of_the_map_is_behind_its_near_plane(camera in any_camera(), direction in vector(1.0), points in prop::collection::vec((0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64), 64)) {
         let light = Light::Directional { direction, half_angle: 0.01 };
-        let p = room().min + room().size() * DVec3::new(share.0, share.1, share.2);
-        prop_assume!(camera.half_spaces(DVec3::ZERO).iter().all(|side| side.distance(p) > 0.0));
-        let fit = fit(&camera, &room(), &light, true).unwrap().unwrap();
-        let (uv, depth) = fit.uv_from_world(p);
-        prop_assert!(uv.cmpge(DVec2::splat(-1e-9)).all() && uv.cmple(DVec2::splat(1.0 + 1e-9)).all());
-        prop_assert!(depth <= fit.depth_far);
-        let caster = p - before * direction.normalize();
-        if scene_sides(&room()).iter().all(|side| side.distance(caster) > 0.0) {
-            prop_assert!(fit.depth(caster) >= fit.depth_near);
+        let fit = fit(&camera, &room(), &light, true).unwrap();
+        prop_assume!(fit.is_some());
+        for (fit, border) in fit.iter().map(|fit| (fit.clone(), fit.with_border(0.3))) {
+            for &(x, y, z) in &points {
+                let p = room().min + room().size() * DVec3::new(x, y, z);
+                for fit in [&fit, &border] {
+                    let (uv, depth) = fit.uv_from_world(p);
+                    let in_box = uv.cmpge(DVec2::ZERO).all() && uv.cmple(DVec2::ONE).all();
+                    prop_assert!(!in_box || depth >= fit.depth_near, "{uv} {depth}");
+                }
+            }
         }
     }
+}
+
+/// A camera that sees a patch of 0.4 m of the room's floor from 2 m above it, and nothing higher than 1.5 m.
+fn patch_of_floor() -> Camera {
+    let eye = DVec3::new(0.5, 1.5, -0.5);
+    Camera {
+        eye,
+        target: eye - DVec3::Y,
+        up: DVec3::Z,
+        vertical_fov: 2.0 * 0.1_f64.atan(),
+        aspect: 1.0,
+        near: 0.1,
+        far: 10.0,
+    }
+}
+
+#[test]
+fn the_sun_in_the_zenith_fits_the_patch_that_is_seen_and_casters_up_to_the_top_of_the_scene() {
+    let zenith = Light::Directional { direction: DVec3::NEG_Y, half_angle: 0.01 };
+    let fit = fit(&patch_of_floor(), &room(), &zenith, true).unwrap().unwrap();
+    assert!((fit.extent_world - 0.4).abs().max_element() < 1e-9);
+    // The unfitted square has the room's 5 m.
+    assert!((fit.scale - 5.0 / 0.4).abs().max_element() < 1e-9);
+    // Depth is -y: the room is 3 m high, its top at 2.5 m; the margin is 1e-4 of it.
+    assert!((fit.depth_near + 2.5).abs() < 4e-4 && fit.depth_near < -2.5, "{}", fit.depth_near);
+    assert!((fit.depth_far - 0.5).abs() < 4e-4 && fit.depth_far > 0.5, "{}", fit.depth_far);
+}
+
+#[test]
+fn a_wider_border_lets_in_earlier_casters() {
+    let fit = fit(&patch_of_floor(), &room(), &sun(), true).unwrap().unwrap();
+    let wider = fit.with_border(0.5);
+    // The first corner of the room's top in the wider column lies nearer to the light.
+    assert!(wider.depth_near < fit.depth_near - 0.05, "{} {}", wider.depth_near, fit.depth_near);
+    assert!(fit.with_border(0.0).depth_near <= fit.depth_near);
+}
+
+#[test]
+fn a_lamp_starts_where_its_cone_enters_the_scene_or_at_a_hundredth_of_its_reach() {
+    let lamp = |y: f64| Light::Spot {
+        position: DVec3::new(0.5, y, -0.5),
+        direction: DVec3::NEG_Y,
+        cone_half_angle: 0.3,
+        radius_world: 0.1,
+    };
+    let above = fit(&patch_of_floor(), &room(), &lamp(4.5), true).unwrap().unwrap();
+    assert!((above.depth_near - 2.0).abs() < 3e-4 && above.depth_near < 2.0, "{}", above.depth_near);
+    assert!((above.depth_far - 5.0).abs() < 1e-3 && above.depth_far > 5.0);
+    // What is seen is a pyramid from the camera, widest on the floor, 5 m from the lamp, and 0.4 m wide there.
+    assert!((above.extent_at(5.0) - 0.4).abs().max_element() < 1e-6, "{}", above.extent_at(5.0));
+    let square = 2.0 * above.depth_near * 0.3_f64.tan();
+    assert!((above.scale * above.extent_world - square).abs().max_element() < 1e-9);
+    let inside = fit(&patch_of_floor(), &room(), &lamp(1.5), true).unwrap().unwrap();
+    assert!((inside.depth_near - 0.02).abs() < 1e-5, "{}", inside.depth_near);
 }
 
 #[test]
