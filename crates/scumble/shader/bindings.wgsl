@@ -24,7 +24,7 @@ struct ShadowLight {
     viewport_texels: vec2f,
     // Texels per world length at the reference plane; y is negative, rows count downwards.
     texel_from_plane: vec2f,
-    // Light-space depths of map depth 0 and 1, world length.
+    // Light-space depths of map depth 0 and 1, world length; under a directional light counted from the world's origin.
     depth_near: f32,
     depth_far: f32,
     // 1 for a spot, 0 for a directional light.

@@ -21,6 +21,13 @@ struct Measure {
 
 const MEASURE_NOTHING: u32 = 0x7F800000u;
 
+// Change of slope from pixel to pixel that still counts as one surface, as a share of the slope, and as depth: a few
+// units in the last place of 24 or 32 bits.
+const BEND_SHARE: f32 = 0.25;
+const BEND_ROUNDING: f32 = 4e-7;
+// Above every bend.
+const NO_PLANE: f32 = 1e30;
+
 @group(1) @binding(0) var<uniform> measure: Measure;
 @group(1) @binding(1) var prepass: texture_depth_2d;
 @group(1) @binding(2) var<storage, read_write> demand: array<atomic<u32>, SHADOW_LIGHTS_MAX>;
@@ -31,25 +38,48 @@ fn ray_at(pixel: vec2f) -> vec3f {
     return measure.ray_corner + pixel.x * measure.ray_x + pixel.y * measure.ray_y;
 }
 
-// The prepass surface at a pixel, clamped to the picture.
-fn surface_at(pixel: vec2i, size: vec2i) -> vec3f {
-    let place = clamp(pixel, vec2i(0), size - 1);
-    let view_depth = measure.depth_numerator / (measure.depth_offset - textureLoad(prepass, place, 0));
-    return measure.eye + view_depth * ray_at(vec2f(place) + 0.5);
+fn depth_at(pixel: vec2i) -> f32 {
+    return textureLoad(prepass, pixel, 0);
 }
 
-// The shorter of the differences to both neighbours: the one that does not cross a silhouette.
-fn difference(before: vec3f, here: vec3f, after: vec3f) -> vec3f {
-    let back = here - before;
-    let forth = after - here;
-    let takes_back = (dot(back, back) < dot(forth, forth) && dot(back, back) > 0.0) || dot(forth, forth) == 0.0;
-    return select(forth, back, takes_back);
+// The prepass surface at a pixel.
+fn surface_at(pixel: vec2i) -> vec3f {
+    let view_depth = measure.depth_numerator / (measure.depth_offset - depth_at(pixel));
+    return measure.eye + view_depth * ray_at(vec2f(pixel) + 0.5);
 }
 
+// How far the three pixels from `pixel` along `step` are from lying on one plane, whose depth is linear in the picture;
+// NO_PLANE where they do not.
+fn bend(pixel: vec2i, step: vec2i, size: vec2i) -> f32 {
+    let last = pixel + 2 * step;
+    if any(last < vec2i(0)) || any(last >= size) {
+        return NO_PLANE;
+    }
+    let change = depth_at(pixel + step) - depth_at(pixel);
+    let residual = abs(depth_at(last) - depth_at(pixel + step) - change);
+    let is_plane = residual <= BEND_SHARE * abs(change) + BEND_ROUNDING;
+    return select(NO_PLANE, residual, is_plane);
+}
+
+// World difference of neighbours along `step`, from the side that is a plane; zero where neither is.
+fn tangent_at(pixel: vec2i, step: vec2i, size: vec2i, here: vec3f) -> vec3f {
+    let forth = bend(pixel, step, size);
+    let back = bend(pixel, -step, size);
+    if min(forth, back) >= NO_PLANE {
+        return vec3f(0.0);
+    }
+    if forth <= back {
+        return surface_at(pixel + step) - here;
+    }
+    return here - surface_at(pixel - step);
+}
+
+// Geometric normal towards the eye; zero at creases and on faces of less than three pixels, which have none.
 fn normal_at(pixel: vec2i, size: vec2i, here: vec3f) -> vec3f {
-    let along_x = difference(surface_at(pixel - vec2i(1, 0), size), here, surface_at(pixel + vec2i(1, 0), size));
-    let along_y = difference(surface_at(pixel - vec2i(0, 1), size), here, surface_at(pixel + vec2i(0, 1), size));
-    return normalize(cross(along_y, along_x));
+    let along_x = tangent_at(pixel, vec2i(1, 0), size, here);
+    let along_y = tangent_at(pixel, vec2i(0, 1), size, here);
+    let normal = cross(along_y, along_x);
+    return normal / max(length(normal), 1e-30);
 }
 
 // Width of a pixel at the receiver, projected onto the reference plane. CPU twin: `scumble_core::pixel_footprint_world`.
@@ -61,18 +91,24 @@ fn footprint(light: u32, here: vec3f, light_depth: f32) -> f32 {
     return at_receiver;
 }
 
+// Whether the surface looks towards the light, no steeper than the bias follows: beyond, it shadows itself.
+fn faces_light(light: u32, normal_light: vec3f, ray_light: vec3f) -> bool {
+    let along = dot(normal_light, ray_light);
+    let slope_max = shadow_lights.lights[light].slope_max;
+    return along < 0.0 && along * along * (1.0 + slope_max * slope_max) >= dot(ray_light, ray_light);
+}
+
 // Bits of the radius a fragment needs, or MEASURE_NOTHING.
 fn radius_bits(light: u32, pixel: vec2i, size: vec2i) -> u32 {
-    let is_surface = all(pixel < size) && textureLoad(prepass, min(pixel, size - 1), 0) < 1.0;
-    if !is_surface || shadow_lights.lights[light].has_map == 0u {
+    if any(pixel >= size) || depth_at(pixel) >= 1.0 || shadow_lights.lights[light].has_map == 0u {
         return MEASURE_NOTHING;
     }
-    let here = surface_at(pixel, size);
+    let here = surface_at(pixel);
     let normal = normal_at(pixel, size, here);
     let position_light = (shadow_lights.lights[light].light_from_world * vec4f(here, 1.0)).xyz;
     let normal_light = (shadow_lights.lights[light].light_from_world * vec4f(normal, 0.0)).xyz;
     let ray_light = select(vec3f(0.0, 0.0, 1.0), position_light, shadow_lights.lights[light].is_spot == 1u);
-    if !(dot(normal_light, ray_light) < 0.0) {
+    if !faces_light(light, normal_light, ray_light) {
         return MEASURE_NOTHING;
     }
     let found = shadow_sample(light, here, normal, vec2f(pixel) + 0.5);

@@ -26,7 +26,9 @@ pub enum Error {
         found: u32,
     },
     /// The number of maps cannot change.
-    #[error("the options ask for {found} maps, but {allocated} were allocated; the number of maps is fixed at creation")]
+    #[error(
+        "the options ask for {found} maps, but {allocated} were allocated; the number of maps is fixed at creation"
+    )]
     MapsAllocated {
         /// What was asked for.
         found: u32,

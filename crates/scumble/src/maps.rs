@@ -21,11 +21,7 @@ impl Maps {
     pub fn new(device: &wgpu::Device, cap: u32, count: u32) -> Self {
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("scumble maps"),
-            size: wgpu::Extent3d {
-                width: cap,
-                height: cap,
-                depth_or_array_layers: count,
-            },
+            size: wgpu::Extent3d { width: cap, height: cap, depth_or_array_layers: count },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -51,13 +47,7 @@ impl Maps {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
-        Self {
-            cap,
-            layers,
-            sampled,
-            texture,
-            clear: clear_pipeline(device),
-        }
+        Self { cap, layers, sampled, texture, clear: clear_pipeline(device) }
     }
 
     /// All layers, for sampling.
@@ -90,11 +80,7 @@ impl Maps {
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.layers[layer],
                 depth_ops: Some(wgpu::Operations {
-                    load: if whole_layer {
-                        wgpu::LoadOp::Clear(1.0)
-                    } else {
-                        wgpu::LoadOp::Load
-                    },
+                    load: if whole_layer { wgpu::LoadOp::Clear(1.0) } else { wgpu::LoadOp::Load },
                     store: wgpu::StoreOp::Store,
                 }),
                 stencil_ops: None,

@@ -4,7 +4,7 @@
 //! is copied into the [readback ring](crate::readback). Nothing is submitted and nothing waits.
 
 use glam::DVec3;
-use scumble_core::{Camera, Settings};
+use scumble_core::{Camera, Demand, Settings};
 
 use crate::error::Error;
 use crate::readback::Ring;
@@ -31,9 +31,9 @@ pub struct Measure {
     ring: Ring<Scale>,
 }
 
-/// Reference-plane depths of the spots whose radii a measurement holds, 1 for other lights: a radius over its scale does
-/// not depend on the fit at the time.
-pub type Scale = [f64; LIGHTS_MAX as usize];
+/// By light: the reference depth of a spot, 1 for a directional light, `None` where there is no map. A radius over its
+/// scale does not depend on the fit at the time.
+pub type Scale = [Option<f64>; LIGHTS_MAX as usize];
 
 /// What one measurement is about.
 pub struct Request<'a> {
@@ -64,20 +64,12 @@ impl Measure {
     pub fn new(device: &wgpu::Device, shadow_layout: &wgpu::BindGroupLayout) -> Result<Self, Error> {
         let found = device.limits().max_storage_buffers_per_shader_stage;
         if found < STORAGE_BUFFERS || device.limits().max_compute_workgroups_per_dimension == 0 {
-            return Err(Error::NoCompute {
-                needed: STORAGE_BUFFERS,
-                found,
-            });
+            return Err(Error::NoCompute { needed: STORAGE_BUFFERS, found });
         }
         let layout = bind_group_layout(device);
         let demand_bytes = u64::from(LIGHTS_MAX) * 4;
         let buffer = |label, size, usage, mapped_at_creation| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
-                usage,
-                mapped_at_creation,
-            })
+            device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation })
         };
         let nothing = buffer("scumble demand start", demand_bytes, wgpu::BufferUsages::COPY_SRC, true);
         if let Ok(mut view) = nothing.get_mapped_range_mut(..) {
@@ -125,11 +117,7 @@ impl Measure {
             return Err(Error::Stride);
         }
         let camera = request.camera.checked()?;
-        queue.write_buffer(
-            &self.uniform,
-            0,
-            bytemuck::bytes_of(&camera_uniform(&camera, size_px, request)),
-        );
+        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&camera_uniform(&camera, size_px, request)));
 
         let rebound = self.bind(device, prepass);
         let Some((_, bind_group)) = &self.bound else {
@@ -151,14 +139,14 @@ impl Measure {
         Ok(Recorded { rebound, copied })
     }
 
-    /// The newest result that has come back, by light: radius over scale; `None` where there was no penumbra.
-    pub fn take(&mut self) -> Option<Vec<Option<f64>>> {
+    /// The newest result that has come back, by light, in the sense of [`LightState::measured`](crate::plan::LightState).
+    pub fn take(&mut self) -> Option<Vec<Option<Option<f64>>>> {
         let (bytes, scale) = self.ring.take()?;
         let bits: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
         Some(
             bits.iter()
                 .zip(scale)
-                .map(|(&bits, scale)| (bits > 0 && bits < NOTHING).then(|| f64::from(f32::from_bits(bits)) / scale))
+                .map(|(&bits, scale)| scale.map(|scale| radius_from_bits(bits).map(|radius| radius / scale)))
                 .collect(),
         )
     }
@@ -172,22 +160,21 @@ impl Measure {
             label: Some("scumble measure"),
             layout: &self.layout,
             entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: self.uniform.as_entire_binding(),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 1,
-                    resource: wgpu::BindingResource::TextureView(prepass),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 2,
-                    resource: self.demand.as_entire_binding(),
-                },
+                wgpu::BindGroupEntry { binding: 0, resource: self.uniform.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(prepass) },
+                wgpu::BindGroupEntry { binding: 2, resource: self.demand.as_entire_binding() },
             ],
         });
         self.bound = Some((prepass.clone(), group));
         true
+    }
+}
+
+/// The radius behind the bits of a minimum; `None` where nothing was written.
+fn radius_from_bits(bits: u32) -> Option<f64> {
+    match Demand::from_minimum_bits(bits) {
+        Demand::Radius(radius_world) => Some(radius_world),
+        Demand::Nothing => None,
     }
 }
 
@@ -244,17 +231,9 @@ fn camera_uniform(camera: &Camera, [width_px, height_px]: [u32; 2], request: &Re
 }
 
 fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty,
-        count: None,
-    };
-    let buffer = |ty| wgpu::BindingType::Buffer {
-        ty,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
+    let entry =
+        |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::COMPUTE, ty, count: None };
+    let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("scumble measure"),
         entries: &[

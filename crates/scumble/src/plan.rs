@@ -37,7 +37,7 @@ pub struct LightState {
     /// Size of its map.
     pub policy: SizePolicy,
     /// Newest measurement: radius over the reference depth of a spot, radius for other lights; `Some(None)` for no
-    /// penumbra, `None` before the first.
+    /// penumbra on screen, `None` before the first and where the light had no map.
     pub measured: Option<Option<f64>>,
 }
 
@@ -51,10 +51,7 @@ pub fn plan(
     lights: &[Light],
 ) -> Result<Plan, Error> {
     if lights.len() > states.len() {
-        return Err(Error::TooManyLights {
-            found: lights.len(),
-            allocated: states.len() as u32,
-        });
+        return Err(Error::TooManyLights { found: lights.len(), allocated: states.len() as u32 });
     }
     let mut plan = Plan {
         views: Vec::with_capacity(lights.len()),
@@ -129,11 +126,8 @@ fn size(
 fn view(settings: &Settings, options: &Options, light: u32, fit: Fit, size: Size) -> View {
     // Where the cap binds, narrower filters than it hides are widened (Kreuzer 2017, 6.2). A fixed size is left alone.
     let widens = options.size == SizeChoice::Adaptive && size.capped;
-    let radius_min_world = if widens {
-        settings.radius_min_world.max(size.radius_min_world)
-    } else {
-        settings.radius_min_world
-    };
+    let radius_min_world =
+        if widens { settings.radius_min_world.max(size.radius_min_world) } else { settings.radius_min_world };
     View {
         light,
         layer: light,
@@ -148,13 +142,15 @@ fn view(settings: &Settings, options: &Options, light: u32, fit: Fit, size: Size
 fn light_uniform(settings: &Settings, options: &Options, view: &View) -> LightUniform {
     let fit = &view.fit;
     let texel_world = view.texel_world();
-    let z_as_depth = DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0));
+    let (is_spot, light_size, depth_of_zero) = match fit.light {
+        // Depth along parallel light has no origin of its own: the shaders' is at their world's, so that f32 carries it.
+        Light::Directional { half_angle, .. } => (0, half_angle.tan(), fit.depth(options.origin_world)),
+        Light::Spot { radius_world, .. } => (1, radius_world, 0.0),
+    };
+    let z_as_depth =
+        DMat4::from_translation(DVec3::new(0.0, 0.0, -depth_of_zero)) * DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0));
     let light_from_world: Mat4 =
         (z_as_depth * fit.light_from_world * DMat4::from_translation(options.origin_world)).as_mat4();
-    let (is_spot, light_size) = match fit.light {
-        Light::Directional { half_angle, .. } => (0, half_angle.tan()),
-        Light::Spot { radius_world, .. } => (1, radius_world),
-    };
     let radius_world = match options.filter {
         Filter::Pcf { radius_world } => radius_world,
         Filter::Hard | Filter::Pcss => 0.0,
@@ -164,8 +160,8 @@ fn light_uniform(settings: &Settings, options: &Options, view: &View) -> LightUn
         light_from_world: light_from_world.to_cols_array_2d(),
         viewport_texels: view.size_texels.map(|side| side as f32),
         texel_from_plane: [(1.0 / texel_world.x) as f32, (-1.0 / texel_world.y) as f32],
-        depth_near: fit.depth_near as f32,
-        depth_far: fit.depth_far as f32,
+        depth_near: (fit.depth_near - depth_of_zero) as f32,
+        depth_far: (fit.depth_far - depth_of_zero) as f32,
         is_spot,
         layer: view.layer,
         light_size: light_size as f32,

@@ -73,17 +73,8 @@ impl<T> Ring<T> {
     }
 
     /// Records a copy of the whole `source` and its mapping; false when every slot is taken.
-    pub fn record(
-        &mut self,
-        encoder: &mut wgpu::CommandEncoder,
-        source: &wgpu::Buffer,
-        context: T,
-    ) -> bool {
-        let Some(slot) = self
-            .slots
-            .iter_mut()
-            .find(|slot| slot.state.load(Ordering::Acquire) == FREE)
-        else {
+    pub fn record(&mut self, encoder: &mut wgpu::CommandEncoder, source: &wgpu::Buffer, context: T) -> bool {
+        let Some(slot) = self.slots.iter_mut().find(|slot| slot.state.load(Ordering::Acquire) == FREE) else {
             return false;
         };
         self.recorded += 1;
@@ -91,10 +82,7 @@ impl<T> Ring<T> {
         slot.context = Some(context);
         slot.state.store(IN_FLIGHT, Ordering::Release);
         encoder.copy_buffer_to_buffer(source, 0, &slot.buffer, 0, slot.buffer.size());
-        let landing = Landing {
-            state: Arc::clone(&slot.state),
-            outcome: FREE,
-        };
+        let landing = Landing { state: Arc::clone(&slot.state), outcome: FREE };
         encoder.map_buffer_on_submit(&slot.buffer, wgpu::MapMode::Read, .., move |result| {
             landing.end(result.is_ok());
         });

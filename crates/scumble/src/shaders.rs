@@ -26,9 +26,7 @@ pub const FILTER_OVERRIDE: &str = "shadow_filter";
 /// `position_world` is relative to the origin of the options, `normal_world` is the geometric normal, of unit length, and
 /// `frag_coord` the pixel. All names start with `shadow_`, `Shadow` or `SHADOW_`.
 pub fn shadow_wgsl(group: u32) -> String {
-    PARTS
-        .join("\n")
-        .replace("@group(0)", &format!("@group({group})"))
+    PARTS.join("\n").replace("@group(0)", &format!("@group({group})"))
 }
 
 /// The demand pass, for tests that look at it.

@@ -50,23 +50,14 @@ impl Shadows {
         let settings = settings.checked()?;
         let device_limit = device.limits().max_texture_dimension_2d;
         if settings.cap > device_limit {
-            return Err(Error::CapOutsideDevice {
-                cap: settings.cap,
-                device_limit,
-            });
+            return Err(Error::CapOutsideDevice { cap: settings.cap, device_limit });
         }
         let options = options.checked(settings.cap)?;
         let maps = Maps::new(device, settings.cap, options.maps);
         let bindings = Bindings::new(device, &maps);
-        let state = LightState {
-            policy: SizePolicy::new(&settings)?,
-            measured: None,
-        };
-        let counters = Counters {
-            allocations: 2 + Bindings::BUFFERS as u64,
-            map_bytes: maps.bytes(),
-            ..Counters::default()
-        };
+        let state = LightState { policy: SizePolicy::new(&settings)?, measured: None };
+        let counters =
+            Counters { allocations: 2 + Bindings::BUFFERS as u64, map_bytes: maps.bytes(), ..Counters::default() };
         Ok(Self {
             device: device.clone(),
             states: vec![state; options.maps as usize],
@@ -75,10 +66,7 @@ impl Shadows {
             maps,
             bindings,
             measure: None,
-            uploaded: Uploaded {
-                lights: 0,
-                scale: [1.0; LIGHTS_MAX as usize],
-            },
+            uploaded: Uploaded { lights: 0, scale: [None; LIGHTS_MAX as usize] },
             counters,
         })
     }
@@ -102,10 +90,7 @@ impl Shadows {
     pub fn set_options(&mut self, options: Options) -> Result<(), Error> {
         let options = options.checked(self.settings.cap)?;
         if options.maps != self.options.maps {
-            return Err(Error::MapsAllocated {
-                found: options.maps,
-                allocated: self.options.maps,
-            });
+            return Err(Error::MapsAllocated { found: options.maps, allocated: self.options.maps });
         }
         if options.filter != self.options.filter {
             for state in &mut self.states {
@@ -132,10 +117,10 @@ impl Shadows {
         }
         self.uploaded = Uploaded {
             lights: plan.views.iter().map(|view| view.light + 1).max().unwrap_or(0),
-            scale: [1.0; LIGHTS_MAX as usize],
+            scale: [None; LIGHTS_MAX as usize],
         };
         for view in &plan.views {
-            self.uploaded.scale[view.light as usize] = measure_scale(&view.fit);
+            self.uploaded.scale[view.light as usize] = Some(measure_scale(&view.fit));
         }
         self.counters.texels = plan.texels();
         self.counters.taps_per_pixel = match self.options.filter {
@@ -240,7 +225,7 @@ impl Shadows {
     pub fn read_demand(&mut self) -> bool {
         let Some(radii) = self.measure.as_mut().and_then(Measure::take) else { return false };
         for (state, radius) in self.states.iter_mut().zip(radii) {
-            state.measured = Some(radius);
+            state.measured = radius;
         }
         self.counters.readbacks_taken += 1;
         true
@@ -261,10 +246,7 @@ impl Shadows {
     pub fn reset(&mut self) -> Result<(), Error> {
         let policy = SizePolicy::new(&self.settings)?;
         for state in &mut self.states {
-            *state = LightState {
-                policy: policy.clone(),
-                measured: None,
-            };
+            *state = LightState { policy: policy.clone(), measured: None };
         }
         Ok(())
     }

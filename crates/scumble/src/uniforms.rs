@@ -23,9 +23,9 @@ pub struct LightUniform {
     pub viewport_texels: [f32; 2],
     /// Texels per world length at the reference plane; y negative.
     pub texel_from_plane: [f32; 2],
-    /// Light-space depth of map depth 0.
+    /// Light-space depth of map depth 0; under a directional light counted from the origin.
     pub depth_near: f32,
-    /// Light-space depth of map depth 1.
+    /// Light-space depth of map depth 1, likewise.
     pub depth_far: f32,
     /// 1 for a spot, 0 for a directional light.
     pub is_spot: u32,
@@ -84,11 +84,7 @@ impl TapsUniform {
 }
 
 fn pack(vectors: &mut [[f32; 4]], points: &[glam::DVec2]) {
-    for (place, point) in vectors
-        .iter_mut()
-        .flat_map(|v| v.chunks_exact_mut(2))
-        .zip(points)
-    {
+    for (place, point) in vectors.iter_mut().flat_map(|v| v.chunks_exact_mut(2)).zip(points) {
         place.copy_from_slice(&point.as_vec2().to_array());
     }
 }

@@ -91,10 +91,7 @@ fn layout(module: &naga::Module, name: &str) -> (Vec<(String, u32)>, u32) {
         _ => None,
     });
     let (members, span) = members.unwrap_or_else(|| panic!("no struct {name}"));
-    let offsets = members
-        .iter()
-        .map(|member| (member.name.clone().unwrap_or_default(), member.offset))
-        .collect();
+    let offsets = members.iter().map(|member| (member.name.clone().unwrap_or_default(), member.offset)).collect();
     (offsets, *span)
 }
 
@@ -111,17 +108,52 @@ macro_rules! assert_same_layout {
 fn structs_have_the_same_offsets_in_rust_and_wgsl() {
     use scumble::uniforms::{LightUniform, LightsUniform, MeasureUniform, TapsUniform};
     let module = parse(&measure_wgsl());
-    assert_same_layout!(module, "ShadowLight", LightUniform, [
-        clip_from_world, light_from_world, viewport_texels, texel_from_plane, depth_near, depth_far, is_spot, layer,
-        light_size, radius_world, radius_min_world, texel_world, bias_constant_texels,
-        bias_slope_texels, bias_rounding_world, slope_max, has_map, filter_kind, padding,
-    ]);
+    assert_same_layout!(
+        module,
+        "ShadowLight",
+        LightUniform,
+        [
+            clip_from_world,
+            light_from_world,
+            viewport_texels,
+            texel_from_plane,
+            depth_near,
+            depth_far,
+            is_spot,
+            layer,
+            light_size,
+            radius_world,
+            radius_min_world,
+            texel_world,
+            bias_constant_texels,
+            bias_slope_texels,
+            bias_rounding_world,
+            slope_max,
+            has_map,
+            filter_kind,
+            padding,
+        ]
+    );
     assert_same_layout!(module, "ShadowLights", LightsUniform, [lights]);
     assert_same_layout!(module, "ShadowTaps", TapsUniform, [pcf, blocker]);
-    assert_same_layout!(module, "Measure", MeasureUniform, [
-        eye, depth_numerator, ray_corner, depth_offset, ray_x, stride, ray_y, radius_per_footprint, forward,
-        radius_floor_world, pixel_at_unit_distance,
-    ]);
+    assert_same_layout!(
+        module,
+        "Measure",
+        MeasureUniform,
+        [
+            eye,
+            depth_numerator,
+            ray_corner,
+            depth_offset,
+            ray_x,
+            stride,
+            ray_y,
+            radius_per_footprint,
+            forward,
+            radius_floor_world,
+            pixel_at_unit_distance,
+        ]
+    );
 }
 
 /// Value of a WGSL constant of type u32.

@@ -12,7 +12,7 @@ fn settings(cap: u32) -> Settings {
 }
 
 fn refusal(settings: Settings, options: Options) -> String {
-    Shadows::with_options(&gpu().device, settings, options).unwrap_err().to_string()
+    Shadows::with_options(&gpu().device, settings, options).expect_err("they are out of range").to_string()
 }
 
 #[test]
@@ -111,11 +111,14 @@ fn reading_the_demand_never_waits_and_answers_before_the_first_result() {
 
 #[test]
 fn planning_changes_nothing_until_it_is_uploaded() {
-    let mut rig = Rig::new(settings(512), Options { filter: Filter::Pcf { radius_world: 0.3 }, ..Options::default() }, &ground_and(slab(1.0, 0.0)));
+    let mut rig = Rig::new(
+        settings(512),
+        Options { filter: Filter::Pcf { radius_world: 0.3 }, ..Options::default() },
+        &ground_and(slab(1.0, 0.0)),
+    );
     let lights = [sun_above(0.1)];
-    let sizes: Vec<[u32; 2]> = (0..40)
-        .map(|_| rig.shadows.plan(&rig.camera, &rig.bounds, &lights).unwrap().views()[0].size_texels)
-        .collect();
+    let sizes: Vec<[u32; 2]> =
+        (0..40).map(|_| rig.shadows.plan(&rig.camera, &rig.bounds, &lights).unwrap().views()[0].size_texels).collect();
     assert!(sizes.iter().all(|&size| size == sizes[0]));
     let small = Options { filter: Filter::Pcf { radius_world: 2.0 }, ..rig.shadows.options().clone() };
     rig.draw(&lights);

@@ -69,9 +69,8 @@ fn hash_and_rotation_are_those_of_the_cpu() {
 #[test]
 fn the_taps_are_those_of_the_cpu() {
     let rig = Rig::new(settings(), fixed(Filter::Hard, 64), &ground_and(Vec::new()));
-    let points: Vec<Point> = (0..25u32)
-        .map(|i| Point { position: Vec3::ZERO, normal: Vec3::Y, pixel: [i, 0] })
-        .collect();
+    let points: Vec<Point> =
+        (0..25u32).map(|i| Point { position: Vec3::ZERO, normal: Vec3::Y, pixel: [i, 0] }).collect();
     let results = rig.evaluate(
         "let i = u32(row.c.x);
          let filter_pair = shadow_taps.pcf[i / 2u];
@@ -100,7 +99,8 @@ fn radii_of_soft_shadows_are_those_of_the_cpu() {
                 Vec3::new((fit.depth_near + i * range) as f32, (fit.depth_near + j * range) as f32, 0.0)
             })
             .collect();
-        let points: Vec<Point> = depths.iter().map(|&position| Point { position, normal: Vec3::Y, pixel: [0, 0] }).collect();
+        let points: Vec<Point> =
+            depths.iter().map(|&position| Point { position, normal: Vec3::Y, pixel: [0, 0] }).collect();
         let results = rig.evaluate(
             "result = vec4f(shadow_search_radius(0u, row.a.x), shadow_filter_radius(0u, row.a.x, row.a.y), 0.0, 0.0);",
             &points,
@@ -131,7 +131,8 @@ fn the_receiver_plane_is_that_of_the_cpu() {
         );
         for (point, [x, y, depth, bias]) in points.iter().zip(rig.evaluate(&body, &points)) {
             let (position, normal) = (point.position.as_dvec3(), point.normal.as_dvec3());
-            let plane = ReceiverPlane::new(&view.fit, position, normal, &rig.shadows.settings().bias, view.texel_world());
+            let plane =
+                ReceiverPlane::new(&view.fit, position, normal, &rig.shadows.settings().bias, view.texel_world());
             let (uv, _) = view.fit.uv_from_world(position);
             assert!((DVec2::new(f64::from(x), f64::from(y)) - uv * 128.0).length() < 1e-2, "{point:?}");
             let expected = plane.depth_at(radius * DVec2::new(0.6, -0.8)) + plane.bias_world;

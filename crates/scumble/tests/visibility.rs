@@ -39,7 +39,8 @@ fn one_tap_tells_dark_from_lit_beside_an_edge() {
 fn a_surface_under_nothing_is_fully_lit_however_it_is_tilted() {
     for tilt in [0.0f32, 0.5, 1.0, 1.3] {
         let turn = glam::Quat::from_euler(glam::EulerRot::YXZ, 0.3, 0.0, tilt);
-        let plane = quad([[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]].map(|[x, z]| turn * Vec3::new(x, 0.0, z)));
+        let plane =
+            quad([[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]].map(|[x, z]| turn * Vec3::new(x, 0.0, z)));
         for filter in [Filter::Hard, Filter::Pcf { radius_world: 0.2 }, Filter::Pcss] {
             let mut rig = Rig::new(settings(128), fixed(filter, 96), &plane);
             rig.camera = camera_above(DVec3::ZERO);
@@ -54,14 +55,13 @@ fn a_surface_under_nothing_is_fully_lit_however_it_is_tilted() {
     }
 }
 
-/// Error of the mean over many pixels' rotations, so that the kernel acts as a dense disc, at the relation's size.
 #[test]
 fn a_half_plane_fades_as_the_closed_form_of_a_disc_within_the_residual_of_the_ratio() {
     let radius_world = 0.5;
-    let rotations = 48u32;
     let (mut largest, mut squares, mut count) = (0.0f64, 0.0f64, 0.0f64);
-    for angle in [0.0f32, 0.2, 0.4, std::f32::consts::FRAC_PI_4] {
+    for degrees in [4.0f32, 9.0, 15.0, 22.0, 27.0, 33.0, 38.0, 44.0] {
         let options = Options { filter: Filter::Pcf { radius_world }, ..Options::default() };
+        let angle = degrees.to_radians();
         let mut rig = Rig::new(settings(1024), options, &ground_and(slab(2.0, angle)));
         let plan = rig.draw(&[sun_above(0.1)]);
         // The ladder may give more texels than the ratio asks for; compare at exactly the ratio.
@@ -70,20 +70,23 @@ fn a_half_plane_fades_as_the_closed_form_of_a_disc_within_the_residual_of_the_ra
         rig.shadows.set_options(exact).unwrap();
         rig.draw(&[sun_above(0.1)]);
 
+        // Points anywhere along the edge, up to two radii from it.
         let turn = glam::Quat::from_rotation_y(angle);
-        let places: Vec<Vec2> = (0..400u32)
-            .map(|i| Vec2::new((i % 20) as f32 / 20.0 * 1.2 - 0.6, (i / 20) as f32 * 0.153 - 1.5))
-            .collect();
-        let points: Vec<Point> = places
-            .iter()
-            .flat_map(|at| {
-                let position = turn * Vec3::new(at.x, 0.0, at.y);
-                (0..rotations).map(move |k| Point { position, normal: Vec3::Y, pixel: [k * 31 + 7, k * 17] })
+        let places: Vec<Vec2> = (0..2000u32)
+            .map(|i| {
+                Vec2::new((i as f32 * 0.569_840_3).fract() * 2.0 - 1.0, (i as f32 * 0.754_877_7).fract() * 4.0 - 2.0)
             })
             .collect();
-        for (at, found) in places.iter().zip(rig.visibility(&points).chunks(rotations as usize)) {
-            let mean = found.iter().map(|&v| f64::from(v)).sum::<f64>() / f64::from(rotations);
-            let error = mean - half_plane_under_disc(f64::from(at.x) / radius_world);
+        let points: Vec<Point> = (0u32..)
+            .zip(&places)
+            .map(|(i, at)| Point {
+                position: turn * Vec3::new(at.x, 0.0, at.y),
+                normal: Vec3::Y,
+                pixel: [i, degrees as u32],
+            })
+            .collect();
+        for (at, found) in places.iter().zip(rig.visibility(&points)) {
+            let error = f64::from(found) - half_plane_under_disc(f64::from(at.x) / radius_world);
             largest = largest.max(error.abs());
             squares += error * error;
             count += 1.0;
@@ -91,9 +94,10 @@ fn a_half_plane_fades_as_the_closed_form_of_a_disc_within_the_residual_of_the_ra
     }
     let rms = (squares / count).sqrt();
     println!("largest {largest:.4}, rms {rms:.4}");
-    // A dense disc at c = 3.47, all angles: 0.077 at most; its RMS of 0.012 is over a picture that is mostly flat.
-    assert!(largest <= 0.077, "{largest}");
-    assert!(rms <= 0.03, "{rms}");
+    // The residual of 25 bilinear taps at c = 3.47: 0.095 and 0.015 for a Vogel disc, a little more for a Poisson disc,
+    // whose taps on the CPU stay below these (a test of `scumble_core`).
+    assert!(largest < 0.115, "{largest}");
+    assert!(rms < 0.017, "{rms}");
 }
 
 #[test]
@@ -125,7 +129,7 @@ fn the_error_of_an_edge_shrinks_as_the_map_grows() {
         (errors.iter().sum::<f64>() / errors.len() as f64).sqrt()
     };
     let [coarse, fine] = [rms(24), rms(768)];
-    assert!(fine < 0.02 && coarse > 2.0 * fine, "{coarse} {fine}");
+    assert!(fine < 0.02 && coarse > 1.5 * fine, "{coarse} {fine}");
 }
 
 #[test]
@@ -135,10 +139,8 @@ fn the_penumbra_of_a_soft_shadow_is_as_wide_as_the_sun_and_the_height_make_it() 
     rig.draw(&[sun_above(half_angle)]);
     let radius = f64::from(height) * half_angle.tan();
     let places: Vec<f32> = (0..80u32).map(|i| (i as f32 / 40.0 - 1.0) * 1.5 * radius as f32).collect();
-    let points: Vec<Point> = places
-        .iter()
-        .flat_map(|&x| (0..64u32).map(move |k| on_ground(x, k as f32 * 0.03 - 1.0, k * 13)))
-        .collect();
+    let points: Vec<Point> =
+        places.iter().flat_map(|&x| (0..64u32).map(move |k| on_ground(x, k as f32 * 0.03 - 1.0, k * 13))).collect();
     for (&x, found) in places.iter().zip(rig.visibility(&points).chunks(64)) {
         let mean = found.iter().map(|&v| f64::from(v)).sum::<f64>() / 64.0;
         let expected = half_plane_under_disc(f64::from(x) / radius);
@@ -162,10 +164,7 @@ fn lookups_stay_inside_the_viewport_and_outside_of_the_map_is_lit() {
         let mut encoder = rig.gpu.encoder();
         drop(rig.shadows.begin(&mut encoder, &plan.views()[0]));
         rig.gpu.finish(encoder);
-        let everywhere: Vec<Point> = grid(40)
-            .into_iter()
-            .map(|p| Point { position: 4.0 * p.position, ..p })
-            .collect();
+        let everywhere: Vec<Point> = grid(40).into_iter().map(|p| Point { position: 4.0 * p.position, ..p }).collect();
         assert!(rig.visibility(&everywhere).iter().all(|&v| v == 1.0), "{filter:?}");
         let layer = rig.gpu.read_depth(rig.shadows.map_texture(), 0, [256, 256]);
         assert!(layer[39 * 256 + 39] == 1.0 && layer[40 * 256 + 40] < 1.0, "only the viewport is cleared");
@@ -219,7 +218,8 @@ fn the_filter_as_a_constant_gives_what_the_uploaded_filter_gives() {
         let mut rig = Rig::new(settings(128), fixed(filter, 128), &ground_and(slab(2.0, 0.3)));
         rig.draw(&[sun_above(0.2)]);
         let uploaded = rig.visibility(&grid(20));
-        let fixed_wgsl = scumble::shadow_wgsl(0).replace("override shadow_filter: u32 = 3u", &format!("override shadow_filter: u32 = {value}"));
+        let fixed_wgsl = scumble::shadow_wgsl(0)
+            .replace("override shadow_filter: u32 = 3u", &format!("override shadow_filter: u32 = {value}"));
         let rows: Vec<[[f32; 4]; 4]> = grid(20)
             .iter()
             .map(|p| {

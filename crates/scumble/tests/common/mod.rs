@@ -20,8 +20,8 @@ pub fn gpu() -> &'static Gpu {
 
 fn open() -> Gpu {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
-    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-        .unwrap_or_else(|error| {
+    let adapter =
+        pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).unwrap_or_else(|error| {
             panic!(
                 "no GPU adapter ({error}). These tests need one; without a GPU install Mesa's software Vulkan driver, \
                  on Debian and Ubuntu: apt-get install mesa-vulkan-drivers libvulkan1"
@@ -42,16 +42,13 @@ fn open() -> Gpu {
 impl Gpu {
     /// An encoder.
     pub fn encoder(&self) -> wgpu::CommandEncoder {
-        self.device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+        self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
     }
 
     /// Submits and waits until everything is done and every callback has run.
     pub fn finish(&self, encoder: wgpu::CommandEncoder) {
         self.queue.submit([encoder.finish()]);
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .expect("the device answers");
+        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
     }
 
     /// A buffer with contents.
@@ -79,9 +76,7 @@ impl Gpu {
         encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
         self.queue.submit([encoder.finish()]);
         copy.map_async(wgpu::MapMode::Read, .., |result| result.expect("the copy can be mapped"));
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .expect("the device answers");
+        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
         let view = copy.get_mapped_range(..).expect("the copy is mapped");
         bytemuck::pod_collect_to_vec(&view)
     }
@@ -105,24 +100,14 @@ impl Gpu {
             },
             wgpu::TexelCopyBufferInfo {
                 buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(row_bytes),
-                    rows_per_image: None,
-                },
+                layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row_bytes), rows_per_image: None },
             },
-            wgpu::Extent3d {
-                width: texture.width(),
-                height: texture.height(),
-                depth_or_array_layers: 1,
-            },
+            wgpu::Extent3d { width: texture.width(), height: texture.height(), depth_or_array_layers: 1 },
         );
         self.finish(encoder);
         let all: Vec<f32> = self.read(&buffer);
         let stride = row_bytes as usize / 4;
-        (0..height as usize)
-            .flat_map(|row| all[row * stride..row * stride + width as usize].to_vec())
-            .collect()
+        (0..height as usize).flat_map(|row| all[row * stride..row * stride + width as usize].to_vec()).collect()
     }
 
     /// Runs `expression` of WGSL (over `row: array<vec4f>` element `in`) for each input, and returns one vec4f each.
@@ -169,10 +154,7 @@ impl Gpu {
             label: None,
             entries: &[entry(0, true), entry(1, false)],
         });
-        let empty = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: None,
-            entries: &[],
-        });
+        let empty = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &[] });
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: None,
             bind_group_layouts: &[Some(group.map_or(&empty, |(layout, _)| layout)), Some(&table_layout)],
@@ -187,10 +169,8 @@ impl Gpu {
             cache: None,
         });
         let rows = self.buffer(inputs, wgpu::BufferUsages::STORAGE);
-        let results = self.buffer(
-            &vec![[0.0f32; 4]; inputs.len()],
-            wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-        );
+        let results =
+            self.buffer(&vec![[0.0f32; 4]; inputs.len()], wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
         let table = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
             layout: &table_layout,
@@ -199,11 +179,8 @@ impl Gpu {
                 wgpu::BindGroupEntry { binding: 1, resource: results.as_entire_binding() },
             ],
         });
-        let empty_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &empty,
-            entries: &[],
-        });
+        let empty_group =
+            device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &empty, entries: &[] });
         let mut encoder = self.encoder();
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());

@@ -118,10 +118,7 @@ impl Rig {
 
     /// `shadow_visibility` of the first light at each point.
     pub fn visibility(&self, points: &[Point]) -> Vec<f32> {
-        let results = self.evaluate(
-            "result.x = shadow_visibility(0u, row.a.xyz, row.b.xyz, row.c.xy);",
-            points,
-        );
+        let results = self.evaluate("result.x = shadow_visibility(0u, row.a.xyz, row.b.xyz, row.c.xy);", points);
         results.into_iter().map(|result| result[0]).collect()
     }
 }
