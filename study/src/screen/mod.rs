@@ -1,0 +1,35 @@
+//! One screen a file. A screen draws, and says what the participant asked for; it decides nothing.
+
+mod feedback;
+mod finished;
+mod instructions;
+mod page;
+mod paused;
+mod rest;
+mod stopped;
+mod trial;
+
+pub(crate) use feedback::feedback;
+pub(crate) use finished::finished;
+pub(crate) use instructions::{Examples, instructions};
+pub(crate) use paused::paused;
+pub(crate) use rest::rest;
+pub(crate) use stopped::stopped;
+pub(crate) use trial::trial;
+
+use scumble_psychophysics::Side;
+
+/// What a participant can ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Action {
+    /// On from a screen that asks nothing.
+    Proceed,
+    /// This side was the line.
+    Answer(Side),
+    /// Hide the pictures.
+    Pause,
+    /// Back from a pause.
+    Continue,
+    /// Close the window.
+    Close,
+}

@@ -1,0 +1,52 @@
+//! The look: one neutral grey, dark type, nothing that competes with the pictures.
+
+use eframe::egui;
+use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, TextStyle, Vec2, Visuals};
+
+/// Ground of every screen: half of the signal, so about a fifth of white's light, between the light
+/// of both sides of every edge.
+pub(crate) const GROUND: Color32 = Color32::from_gray(128);
+/// Type.
+pub(crate) const INK: Color32 = Color32::from_gray(12);
+/// Type that may be overlooked; 4.5 to 1 against the ground.
+pub(crate) const FAINT_INK: Color32 = Color32::from_gray(24);
+/// Lines, tracks, and buttons at rest.
+const RAISED: Color32 = Color32::from_gray(146);
+const HOVERED: Color32 = Color32::from_gray(160);
+const PRESSED: Color32 = Color32::from_gray(112);
+/// Empty part of the progress bar.
+pub(crate) const TRACK: Color32 = Color32::from_gray(112);
+
+/// Sets type and colours for the whole program.
+pub(crate) fn apply(context: &egui::Context) {
+    // A participant must not change the scale by a slip of the fingers.
+    context.options_mut(|options| options.zoom_with_keyboard = false);
+    context.set_theme(egui::Theme::Light);
+    context.all_styles_mut(|style| {
+        let sizes =
+            [(TextStyle::Heading, 32.0), (TextStyle::Body, 19.0), (TextStyle::Button, 19.0), (TextStyle::Small, 15.0)];
+        style.text_styles.extend(sizes.map(|(name, size)| (name, FontId::new(size, FontFamily::Proportional))));
+        style.spacing.button_padding = Vec2::new(22.0, 11.0);
+        style.spacing.item_spacing = Vec2::new(12.0, 14.0);
+        style.interaction.selectable_labels = false;
+        style.visuals = visuals();
+    });
+}
+
+fn visuals() -> Visuals {
+    let mut visuals = Visuals::light();
+    visuals.panel_fill = GROUND;
+    visuals.window_fill = GROUND;
+    visuals.override_text_color = Some(INK);
+    let widgets = &mut visuals.widgets;
+    for (state, fill) in
+        [(&mut widgets.inactive, RAISED), (&mut widgets.hovered, HOVERED), (&mut widgets.active, PRESSED)]
+    {
+        state.weak_bg_fill = fill;
+        state.bg_fill = fill;
+        state.bg_stroke = Stroke::NONE;
+        state.corner_radius = CornerRadius::same(6);
+        state.expansion = 0.0;
+    }
+    visuals
+}
