@@ -14,6 +14,8 @@ struct Lighting {
     ground_color: vec3f,
     exposure: f32,
     up: vec3f,
+    padding: f32,
+    below_color: vec3f,
 }
 
 @group(0) @binding(5) var<uniform> lighting: Lighting;

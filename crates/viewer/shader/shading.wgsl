@@ -1,11 +1,14 @@
-// A picture: Lambert reflection of the light times its visibility, a hemisphere of sky light times the openness, and a
-// sky where there is no surface. One output pixel averages samples_per_side^2 samples of the G-buffer, after the tone
+// A picture: Lambert reflection of the light times its visibility, a hemisphere of sky light times the openness, a sheen
+// (Schlick's Fresnel term of a dielectric over the sky and a Blinn-Phong highlight), and a sky where there is no surface. One output pixel averages samples_per_side^2 samples of the G-buffer, after the tone
 // curve, so that bright edges are smooth too. Prepend camera.wgsl, gbuffer_read.wgsl and lighting.wgsl.
 
 @group(1) @binding(0) var visibility: texture_2d<f32>;
 @group(1) @binding(1) var openness: texture_2d<f32>;
 
 const WHITE: f32 = 3.2;
+const SHEEN: f32 = 0.04;          // reflectance of a dielectric at normal incidence
+const SHEEN_SHARE: f32 = 0.5;     // of a mirror's: most surfaces are rough
+const HIGHLIGHT_EXPONENT: f32 = 48.0;
 
 // Reinhard's curve with a white point: 0 -> 0, WHITE -> 1.
 fn tone(linear: vec3f) -> vec3f {
@@ -16,7 +19,7 @@ fn tone(linear: vec3f) -> vec3f {
 fn sky(direction: vec3f) -> vec3f {
     let height = dot(direction, lighting.up);
     let above = mix(lighting.horizon_color, lighting.zenith_color, pow(clamp(height, 0.0, 1.0), 0.55));
-    return mix(above, lighting.ground_color, smoothstep(0.0, -0.25, height));
+    return mix(above, lighting.below_color, smoothstep(0.0, -0.3, height));
 }
 
 // Light that falls on a square metre turned towards it, and the way to the light.
@@ -41,12 +44,19 @@ fn radiance(pixel: vec2i, size: vec2f) -> vec3f {
     }
     let normal = textureLoad(gbuffer_shading_normal, pixel, 0).xyz;
     let color = textureLoad(gbuffer_color, pixel, 0).rgb;
+    let open = textureLoad(openness, pixel, 0).x;
     let light = incident(position.xyz);
     let facing = max(0.0, dot(normal, light.xyz));
-    let direct = lighting.light_color * (facing * light.w * textureLoad(visibility, pixel, 0).x);
+    let arriving = lighting.light_color * (facing * light.w * textureLoad(visibility, pixel, 0).x);
     let upward = 0.5 + 0.5 * dot(normal, lighting.up);
     let around = mix(lighting.ground_color, mix(lighting.horizon_color, lighting.zenith_color, 0.6), upward);
-    return color * (direct + around * textureLoad(openness, pixel, 0).x);
+
+    let to_eye = normalize(camera.eye_world.xyz - position.xyz);
+    let middle = normalize(to_eye + light.xyz);
+    let fresnel = SHEEN + (1.0 - SHEEN) * pow(1.0 - max(0.0, dot(normal, to_eye)), 5.0);
+    let mirrored = sky(reflect(-to_eye, normal)) * (SHEEN_SHARE * fresnel * open);
+    let highlight = SHEEN * (HIGHLIGHT_EXPONENT + 8.0) / 8.0 * pow(max(0.0, dot(normal, middle)), HIGHLIGHT_EXPONENT);
+    return color * (arriving + around * open) + mirrored + arriving * highlight * 0.5;
 }
 
 @fragment

@@ -14,7 +14,7 @@ pub struct CasterPass {
 
 impl CasterPass {
     /// Builds the pipeline. Both sides of every triangle cast, because open surfaces have no other side to stand in.
-    pub fn new(gpu: &Gpu) -> Self {
+    pub fn new(gpu: &Gpu, shadows: &scumble::Shadows) -> Self {
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("casters"),
             entries: &[wgpu::BindGroupLayoutEntry {
@@ -34,7 +34,6 @@ impl CasterPass {
             bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
-        let unclipped_depth = gpu.device.features().contains(wgpu::Features::DEPTH_CLIP_CONTROL);
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("casters"),
             layout: Some(&pipeline_layout),
@@ -44,8 +43,8 @@ impl CasterPass {
                 compilation_options: Default::default(),
                 buffers: &[Some(Geometry::POSITION_LAYOUT)],
             },
-            primitive: wgpu::PrimitiveState { unclipped_depth, ..Default::default() },
-            depth_stencil: Some(scumble::depth_state()),
+            primitive: wgpu::PrimitiveState { unclipped_depth: shadows.unclipped_depth(), ..Default::default() },
+            depth_stencil: Some(shadows.depth_stencil_state()),
             multisample: Default::default(),
             fragment: None,
             multiview_mask: None,

@@ -52,6 +52,9 @@ pub struct Shot {
     /// Texels of the shadow map: `adaptive`, N for N x N, or NxM
     #[arg(long, default_value = "adaptive", value_name = "adaptive|N[xM]")]
     pub size: Size,
+    /// Samples per pixel along x and along y
+    #[arg(long, default_value_t = 2, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4))]
+    pub samples: u32,
     /// The picture, a .png file
     #[arg(long, value_name = "PNG")]
     pub out: PathBuf,
@@ -78,7 +81,7 @@ pub struct Bench {
     /// The directory for bench.csv, bench.json and the pictures; made if missing
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Small pictures without supersampling and 15 frames: a look, not a result to report
+    /// Half the width and height, one sample per pixel in the pictures
     #[arg(long)]
     pub quick: bool,
 }
@@ -114,12 +117,15 @@ pub struct Conditions {
     /// Size of the light: angular radius in degrees of a sun, radius in metres of a lamp [default: the scene's]
     #[arg(long, value_name = "W", value_parser = positive)]
     pub light_size: Option<f64>,
-    /// Filter radius of pcf in metres on the light's view plane [default: the scene's]
+    /// Filter radius of pcf in metres at the shadow [default: the scene's]
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f64>,
     /// relation.json of a study: texels per filter radius [default: the published 3.47]
     #[arg(long, value_name = "FILE")]
     pub relation: Option<PathBuf>,
+    /// Most texels per side of an adaptive map: where the screen asks for more, contact shadows are widened instead
+    #[arg(long, default_value_t = 1024, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=16_384))]
+    pub cap: u32,
     /// Pixels across
     #[arg(long, default_value_t = 1280, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub width: u32,

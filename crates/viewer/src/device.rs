@@ -9,6 +9,22 @@ use anyhow::{Context, Result, anyhow};
 const NO_ADAPTER: &str = "no graphics adapter found: install a Vulkan driver (Debian and Ubuntu: `apt-get install \
                           mesa-vulkan-drivers libvulkan1`, which renders on the processor) or a driver for the card";
 
+/// The most powerful adapter. OpenGL is asked last and only where nothing else answers: looking for it without a display
+/// makes system libraries print complaints of their own.
+fn adapter() -> Result<wgpu::Adapter> {
+    let options =
+        wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
+    let asked = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::all());
+    for backends in [asked & wgpu::Backends::PRIMARY, asked & wgpu::Backends::SECONDARY] {
+        let descriptor =
+            wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle_from_env() };
+        if let Ok(adapter) = pollster::block_on(wgpu::Instance::new(descriptor).request_adapter(&options)) {
+            return Ok(adapter);
+        }
+    }
+    Err(anyhow!(NO_ADAPTER))
+}
+
 /// An open device with its queue.
 pub struct Gpu {
     /// Makes resources.
@@ -22,15 +38,9 @@ pub struct Gpu {
 impl Gpu {
     /// Opens the most powerful adapter there is, a software one if need be.
     ///
-    /// The environment variables of wgpu choose another one: `WGPU_BACKEND`, `WGPU_ADAPTER_NAME` are read by wgpu,
-    /// `VK_DRIVER_FILES` by the Vulkan loader.
+    /// The environment chooses another one: `WGPU_BACKEND` is read by wgpu, `VK_DRIVER_FILES` by the Vulkan loader.
     pub fn open() -> Result<Self> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
-        let options = wgpu::RequestAdapterOptions {
-            power_preference: wgpu::PowerPreference::HighPerformance,
-            ..Default::default()
-        };
-        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|_| anyhow!(NO_ADAPTER))?;
+        let adapter = adapter()?;
         let wanted = wgpu::Features::TIMESTAMP_QUERY
             | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS
             | wgpu::Features::DEPTH_CLIP_CONTROL

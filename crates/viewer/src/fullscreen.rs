@@ -9,6 +9,7 @@ pub fn pipeline(
     label: &str,
     source: &str,
     entry_point: &str,
+    constants: &[(&str, f64)],
     layouts: &[&wgpu::BindGroupLayout],
     format: wgpu::TextureFormat,
 ) -> wgpu::RenderPipeline {
@@ -37,7 +38,7 @@ pub fn pipeline(
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some(entry_point),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
             targets: &[Some(format.into())],
         }),
         multiview_mask: None,

@@ -149,7 +149,8 @@ impl GBuffer {
         ]
         .map(|(label, format)| target(gpu, label, size_px, format));
         let depth = target(gpu, "depth", size_px, DEPTH_FORMAT);
-        let views = [&position, &normal, &shading_normal, &color].map(|texture| texture.create_view(&Default::default()));
+        let views =
+            [&position, &normal, &shading_normal, &color].map(|texture| texture.create_view(&Default::default()));
 
         let clip_from_world = camera.clip_from_world();
         let camera_uniform = CameraUniform {
@@ -239,7 +240,11 @@ pub fn target(gpu: &Gpu, label: &str, size_px: [u32; 2], format: wgpu::TextureFo
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT
             | wgpu::TextureUsages::TEXTURE_BINDING
             | wgpu::TextureUsages::COPY_SRC
-            | if format.is_depth_stencil_format() { wgpu::TextureUsages::empty() } else { wgpu::TextureUsages::COPY_DST },
+            | if format.is_depth_stencil_format() {
+                wgpu::TextureUsages::empty()
+            } else {
+                wgpu::TextureUsages::COPY_DST
+            },
         view_formats: &[],
     })
 }

@@ -49,9 +49,7 @@ impl Geometry {
             let first = positions.len() as u32;
             positions.extend_from_slice(&mesh.positions);
             attributes.extend(
-                mesh.normals
-                    .iter()
-                    .map(|&normal_world| Attributes { normal_world, linear_color: mesh.linear_color }),
+                mesh.normals.iter().map(|&normal_world| Attributes { normal_world, linear_color: mesh.linear_color }),
             );
             indices.extend(mesh.triangles.iter().flatten().map(|index| first + index));
         }

@@ -9,6 +9,7 @@
 //! one line on standard error.
 
 mod bench;
+mod casters;
 mod cli;
 mod device;
 mod evaluation;
@@ -17,6 +18,7 @@ mod gbuffer;
 mod geometry;
 mod output;
 mod readback;
+mod record;
 mod setup;
 mod shading;
 mod shot;
@@ -24,6 +26,7 @@ mod stage;
 mod statistics;
 mod timer;
 mod truth;
+mod variant;
 
 use std::process::ExitCode;
 

@@ -16,8 +16,10 @@ const HALF_ANGLE_MAX_DEG: f64 = 45.0;
 pub struct Setup {
     /// Meshes, camera with the aspect of the picture, light with the size asked for.
     pub scene: Scene,
-    /// The radius of PCF, world length on the light's view plane.
-    pub pcf_radius_world: f64,
+    /// The radius of PCF at the light's reference plane, metres; see [`pcf_radius_plane`].
+    pub pcf_radius_plane: f64,
+    /// Most texels per side of an adaptive map.
+    pub cap: u32,
     /// Texels per radius.
     pub relation: Relation,
     /// Where the relation comes from, for records.
@@ -36,18 +38,29 @@ impl Setup {
             None => (Relation::published(), "published".to_owned()),
             Some(path) => (read_relation(path)?, path.display().to_string()),
         };
-        let pcf_radius_world = conditions.radius.unwrap_or(scene.pcf_radius_world);
-        Ok(Self { scene, pcf_radius_world, relation, relation_source })
+        let pcf_radius_plane = pcf_radius_plane(&scene, conditions.radius.unwrap_or(scene.pcf_radius_world))?;
+        Ok(Self { scene, pcf_radius_plane, cap: conditions.cap, relation, relation_source })
     }
 
     /// The filter of a method with the softness of this setup.
     pub fn filter(&self, method: Method) -> Filter {
         match method {
             Method::None => Filter::Hard,
-            Method::Pcf => Filter::Pcf { radius_world: self.pcf_radius_world },
+            Method::Pcf => Filter::Pcf { radius_world: self.pcf_radius_plane },
             Method::Pcss => Filter::Pcss,
         }
     }
+}
+
+/// The radius at the light's reference plane that is `radius_world` at what the camera looks at. Users think of the shadow
+/// they see; a spot's reference plane is its near plane, where the same kernel is smaller by the ratio of the depths.
+fn pcf_radius_plane(scene: &Scene, radius_world: f64) -> Result<f64> {
+    let fit = scumble_core::fit(&scene.camera, &scene.bounds(), &scene.light, true)
+        .with_context(|| format!("the scene {}", scene.name))?;
+    Ok(fit.map_or(radius_world, |fit| {
+        let (_, depth) = fit.uv_from_world(scene.camera.target);
+        radius_world * fit.reference_from_depth(depth.max(fit.reference_depth()))
+    }))
 }
 
 fn set_light_size(light: &mut Light, size: f64) -> Result<()> {

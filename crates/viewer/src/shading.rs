@@ -37,6 +37,8 @@ pub struct LightingUniform {
     exposure: f32,
     up: Vec3,
     padding: f32,
+    below_color: Vec3,
+    padding_end: f32,
 }
 
 impl LightingUniform {
@@ -62,6 +64,7 @@ impl LightingUniform {
                 zenith_color: Vec3::new(0.26, 0.45, 0.82),
                 horizon_color: Vec3::new(0.86, 0.93, 1.0),
                 ground_color: Vec3::new(0.30, 0.27, 0.23),
+                below_color: Vec3::new(0.66, 0.68, 0.70),
                 ..common
             },
             Light::Spot { position, direction, cone_half_angle, .. } => Self {
@@ -70,9 +73,10 @@ impl LightingUniform {
                 light_direction: direction.normalize().as_vec3(),
                 cone_cosine: cone_half_angle.cos() as f32,
                 reference_distance_squared: reference_distance(*position, scene).powi(2) as f32,
-                zenith_color: Vec3::new(0.20, 0.23, 0.30),
-                horizon_color: Vec3::new(0.30, 0.30, 0.32),
+                zenith_color: Vec3::new(0.15, 0.17, 0.22),
+                horizon_color: Vec3::new(0.24, 0.23, 0.23),
                 ground_color: Vec3::new(0.20, 0.17, 0.14),
+                below_color: Vec3::new(0.10, 0.09, 0.08),
                 ..common
             },
         }
@@ -110,9 +114,17 @@ impl ShadingPass {
         let shade_source = [SHARED, include_str!("../shader/shading.wgsl")].concat();
         let ambient_layouts = [&gbuffer.layout];
         let shade_layouts = [&gbuffer.layout, &layout];
-        let ambient =
-            fullscreen::pipeline(gpu, "ambient", &ambient_source, "ambient", &ambient_layouts, Self::OPENNESS_FORMAT);
-        let shade = fullscreen::pipeline(gpu, "shade", &shade_source, "shade", &shade_layouts, Self::PICTURE_FORMAT);
+        let ambient = fullscreen::pipeline(
+            gpu,
+            "ambient",
+            &ambient_source,
+            "ambient",
+            &[],
+            &ambient_layouts,
+            Self::OPENNESS_FORMAT,
+        );
+        let shade =
+            fullscreen::pipeline(gpu, "shade", &shade_source, "shade", &[], &shade_layouts, Self::PICTURE_FORMAT);
         Self { ambient, shade, layout }
     }
 

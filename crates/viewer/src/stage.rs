@@ -3,7 +3,6 @@
 use anyhow::Result;
 use image::RgbImage;
 
-use crate::casters::CasterPass;
 use crate::device::Gpu;
 use crate::gbuffer::{GBuffer, GBufferPass, target};
 use crate::geometry::Geometry;
@@ -21,8 +20,6 @@ pub struct Stage {
     pub setup: Setup,
     /// The scene's buffers.
     pub geometry: Geometry,
-    /// Draws casters.
-    pub casters: CasterPass,
     /// Draws receivers.
     pub gbuffer_pass: GBufferPass,
     shading: ShadingPass,
@@ -34,8 +31,7 @@ impl Stage {
         let geometry = Geometry::upload(&gpu, &setup.scene)?;
         let gbuffer_pass = GBufferPass::new(&gpu);
         let shading = ShadingPass::new(&gpu, &gbuffer_pass);
-        let casters = CasterPass::new(&gpu);
-        Ok(Self { gpu, setup, geometry, casters, gbuffer_pass, shading })
+        Ok(Self { gpu, setup, geometry, gbuffer_pass, shading })
     }
 
     /// Draws the receivers of a picture of `size_px` with `samples_per_side`^2 samples per pixel.

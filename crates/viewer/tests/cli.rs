@@ -72,10 +72,11 @@ fn a_relation_that_is_none_is_refused_by_file_and_place() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("x.png");
     let relation = directory.path().join("relation.json");
-    for text in ["", "{ \"schema\": \"scumble/relation/1\", \"ratio\": { \"value\": NaN } }", "{ \"schema\": \"other\" }"] {
+    for text in
+        ["", "{ \"schema\": \"scumble/relation/1\", \"ratio\": { \"value\": NaN } }", "{ \"schema\": \"other\" }"]
+    {
         fs::write(&relation, text).unwrap();
-        let arguments =
-            ["shot", "--scene", "contact", "--relation", path_text(&relation), "--out", path_text(&out)];
+        let arguments = ["shot", "--scene", "contact", "--relation", path_text(&relation), "--out", path_text(&out)];
         let line = complaint(&arguments);
         assert!(line.contains("relation.json"), "{line}");
     }
@@ -117,12 +118,9 @@ fn a_shot_writes_a_picture_and_a_record_whose_texels_are_those_of_its_viewports(
 
         let picture = image::open(&out).unwrap();
         assert_eq!((picture.width(), picture.height()), (160, 90));
-        let record: serde_json::Value =
-            serde_json::from_slice(&fs::read(out.with_extension("json")).unwrap()).unwrap();
+        let record: serde_json::Value = serde_json::from_slice(&fs::read(out.with_extension("json")).unwrap()).unwrap();
         let maps = record["maps"].as_array().unwrap();
-        let areas = maps.iter().map(|map| {
-            map["viewport"][2].as_u64().unwrap() * map["viewport"][3].as_u64().unwrap()
-        });
+        let areas = maps.iter().map(|map| map["viewport"][2].as_u64().unwrap() * map["viewport"][3].as_u64().unwrap());
         assert_eq!(record["texels"].as_u64().unwrap(), areas.sum::<u64>());
         if size == "128x64" {
             assert_eq!(record["texels"], 128 * 64);

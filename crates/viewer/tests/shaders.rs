@@ -11,7 +11,8 @@ const SHADOW: &str = "fn shadow_visibility(light: u32, position_world: vec3f, no
 
 fn check(parts: &[&str]) {
     let source = parts.join("\n");
-    let module = naga::front::wgsl::parse_str(&source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&source)));
+    let module =
+        naga::front::wgsl::parse_str(&source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&source)));
     Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
         .unwrap_or_else(|error| panic!("{}", error.emit_to_string(&source)));

@@ -1,0 +1,103 @@
+//! What the JSON files say about a map, a device and a run.
+
+use std::process::Command;
+
+use serde::Serialize;
+
+use crate::device::Gpu;
+use crate::setup::Setup;
+use scumble::{Plan, View};
+
+/// One shadow map of a plan.
+#[derive(Clone, Debug, Serialize)]
+pub struct MapRecord {
+    /// Number of the light.
+    pub light: u32,
+    /// Texels across and down of the texture it was allocated in.
+    pub size: [u32; 2],
+    /// The part of it in use: x, y, width, height in texels.
+    pub viewport: [u32; 4],
+    /// Extent of the light's box at the reference plane, metres.
+    pub extent_world: [f64; 2],
+    /// Radius of the demand in texels of this map.
+    pub c_effective: f64,
+    /// Smallest radius whose texels this map hides, metres at the reference plane.
+    pub radius_min_world: f64,
+    /// Whether the demand asks for more than the cap.
+    pub capped: bool,
+}
+
+impl MapRecord {
+    /// The maps of a plan in a texture of `cap` texels a side.
+    pub fn of(plan: &Plan, cap: u32) -> Vec<Self> {
+        plan.views().iter().map(|view| Self::of_view(view, cap)).collect()
+    }
+
+    fn of_view(view: &View, cap: u32) -> Self {
+        let [width, height] = view.size_texels;
+        Self {
+            light: view.light,
+            size: [cap, cap],
+            viewport: [0, 0, width, height],
+            extent_world: view.fit.extent_world.to_array(),
+            c_effective: view.size.c_effective,
+            radius_min_world: view.size.radius_min_world,
+            capped: view.size.capped,
+        }
+    }
+}
+
+/// Where a run took place.
+#[derive(Clone, Debug, Serialize)]
+pub struct MachineRecord {
+    /// Name of the adapter.
+    pub device: String,
+    /// Driver with its version.
+    pub driver: String,
+    /// Graphics interface.
+    pub backend: String,
+    /// Version of this program.
+    pub version: &'static str,
+    /// Commit of the source tree, where git knows one.
+    pub git_commit: Option<String>,
+}
+
+impl MachineRecord {
+    /// Of an open device.
+    pub fn of(gpu: &Gpu) -> Self {
+        Self {
+            device: gpu.info.name.clone(),
+            driver: format!("{} {}", gpu.info.driver, gpu.info.driver_info).trim().to_owned(),
+            backend: gpu.info.backend.to_string(),
+            version: env!("CARGO_PKG_VERSION"),
+            git_commit: git_commit(),
+        }
+    }
+}
+
+fn git_commit() -> Option<String> {
+    let output = Command::new("git")
+        .args(["-C", env!("CARGO_MANIFEST_DIR"), "describe", "--always", "--dirty", "--abbrev=12"])
+        .output()
+        .ok()
+        .filter(|output| output.status.success())?;
+    Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
+}
+
+/// The relation that sizes were chosen by.
+#[derive(Clone, Debug, Serialize)]
+pub struct RatioRecord {
+    /// Texels per filter radius.
+    pub value: f64,
+    /// Its 95 % interval.
+    pub ci95: [f64; 2],
+    /// `published`, or the file it was read from.
+    pub source: String,
+}
+
+impl RatioRecord {
+    /// Of a setup.
+    pub fn of(setup: &Setup) -> Self {
+        Self { value: setup.relation.ratio(), ci95: setup.relation.ci95(), source: setup.relation_source.clone() }
+    }
+}

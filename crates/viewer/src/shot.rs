@@ -1,0 +1,97 @@
+//! `shot`: one picture, and its numbers beside it.
+
+use std::collections::BTreeMap;
+
+use anyhow::Result;
+use scumble::Light;
+use serde::Serialize;
+
+use crate::cli::Shot;
+use crate::device::Gpu;
+use crate::output::{Kind, claim, write_json, write_png};
+use crate::record::{MachineRecord, MapRecord, RatioRecord};
+use crate::setup::Setup;
+use crate::stage::Stage;
+use crate::statistics::Spread;
+use crate::timer::Timer;
+use crate::variant::Variant;
+
+/// Frames whose median is reported.
+const TIMED_FRAMES: usize = 5;
+
+/// The JSON file beside a picture.
+#[derive(Serialize)]
+struct ShotRecord<'a> {
+    schema: &'static str,
+    scene: &'a str,
+    method: &'static str,
+    size: String,
+    width: u32,
+    height: u32,
+    light: &'a Light,
+    pcf_radius_plane: f64,
+    ratio: RatioRecord,
+    /// Of all maps together.
+    texels: u64,
+    maps: Vec<MapRecord>,
+    demand: DemandRecord,
+    /// Medians in milliseconds at one sample per pixel; empty where the device has no timestamps.
+    times_ms: BTreeMap<&'static str, f64>,
+    machine: MachineRecord,
+}
+
+/// What the screen asked for.
+#[derive(Serialize)]
+struct DemandRecord {
+    /// Smallest filter radius on screen, metres at the reference plane; null without a penumbra on screen.
+    radius_world: Option<f64>,
+}
+
+/// Runs the command.
+pub fn run(options: &Shot) -> Result<()> {
+    let conditions = &options.view.conditions;
+    let picture_path = claim(&options.out, Kind::Png)?;
+    let record_path = claim(&options.out.with_extension("json"), Kind::Json)?;
+    let setup = Setup::open(&options.view.scene, conditions)?;
+    let stage = Stage::new(Gpu::open()?, setup)?;
+
+    let size_px = [conditions.width, conditions.height];
+    let receivers = stage.receivers(size_px, 1)?;
+    let mut timer = Timer::new(&stage.gpu);
+    let mut variant = Variant::new(&stage, &receivers, options.method, options.size)?;
+    let mut plan = variant.settle(&stage, &receivers, &mut timer)?;
+
+    let mut times: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
+    for _ in 0..TIMED_FRAMES {
+        let parts;
+        (plan, parts) = variant.frame(&stage, &receivers, &mut timer)?;
+        for (part, milliseconds) in parts {
+            times.entry(part).or_default().push(milliseconds);
+        }
+    }
+
+    let samples = stage.receivers(size_px, options.samples)?;
+    let visibility = variant.evaluate(&stage, &samples)?;
+    write_png(&picture_path, &stage.picture(&samples, &visibility, options.samples)?)?;
+
+    let medians = times.iter().filter_map(|(&part, list)| Some((part, Spread::of(list)?.median)));
+    let record = ShotRecord {
+        schema: "scumble/shot/1",
+        scene: &stage.setup.scene.name,
+        method: options.method.name(),
+        size: options.size.to_string(),
+        width: size_px[0],
+        height: size_px[1],
+        light: &stage.setup.scene.light,
+        pcf_radius_plane: stage.setup.pcf_radius_plane,
+        ratio: RatioRecord::of(&stage.setup),
+        texels: plan.texels(),
+        maps: MapRecord::of(&plan, variant.cap()),
+        demand: DemandRecord { radius_world: variant.demand_radius_world(&stage, &receivers, &plan)? },
+        times_ms: medians.collect(),
+        machine: MachineRecord::of(&stage.gpu),
+    };
+    write_json(&record_path, &record)?;
+    println!("{}: {} texels, {}", picture_path.display(), record.texels, record_path.display());
+    Ok(())
+}

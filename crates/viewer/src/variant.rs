@@ -1,0 +1,146 @@
+//! One method at one size on a stage: the shadow map, its frames, and when an adaptive size has come to rest.
+
+use anyhow::{Context, Result};
+use scumble::{Aabb, Counters, Options, Plan, Settings, Shadows, SizeChoice};
+
+use crate::casters::CasterPass;
+use crate::cli::{Method, Size};
+use crate::evaluation::EvaluationPass;
+use crate::gbuffer::GBuffer;
+use crate::readback::read_texture;
+use crate::stage::Stage;
+use crate::timer::Timer;
+
+/// More rungs than any ladder of sizes has.
+const RUNGS_ALL: u32 = 1000;
+/// Frames without a change of size after which it counts as settled: more than a readback takes to arrive.
+const SETTLED_FRAMES: u32 = 4;
+/// Frames after which a size that still changes is taken as it is.
+const SETTLING_FRAMES_MAX: u32 = 64;
+/// Every how many pixels, across and down, the demand pass looks at one.
+const MEASURE_STRIDE: u32 = 4;
+
+/// Milliseconds by part of a frame, in the order of the passes.
+pub type Times = Vec<(&'static str, f64)>;
+
+/// A shadow map under test.
+pub struct Variant {
+    /// How it is filtered.
+    pub method: Method,
+    /// How its size is chosen.
+    pub size: Size,
+    shadows: Shadows,
+    casters: CasterPass,
+    evaluation: EvaluationPass,
+    visibility: wgpu::Texture,
+    bounds: Aabb,
+}
+
+impl Variant {
+    /// Allocates the map: at the cap for an adaptive size, as large as it is used for a fixed one.
+    pub fn new(stage: &Stage, gbuffer: &GBuffer, method: Method, size: Size) -> Result<Self> {
+        let filter = stage.setup.filter(method);
+        let device_limit = stage.gpu.device.limits().max_texture_dimension_2d;
+        let (cap, choice) = match size {
+            Size::Adaptive => (stage.setup.cap.min(device_limit), SizeChoice::Adaptive),
+            Size::Fixed(texels) => (texels[0].max(texels[1]), SizeChoice::Fixed(texels)),
+        };
+        // A still picture has nothing to flicker, so sizes may shrink as soon and as far as the demand allows.
+        let settings = Settings {
+            relation: stage.setup.relation.clone(),
+            cap,
+            shrink_after_frames: 1,
+            shrink_rungs: RUNGS_ALL,
+            ..Settings::default()
+        };
+        let options = Options { filter, size: choice, measure_stride: MEASURE_STRIDE, ..Options::default() };
+        let shadows = Shadows::with_options(&stage.gpu.device, settings, options)
+            .with_context(|| format!("--size {size} --method {}", method.name()))?;
+        let casters = CasterPass::new(&stage.gpu, &shadows);
+        let evaluation = EvaluationPass::new(&stage.gpu, &stage.gbuffer_pass.layout, &shadows, &filter);
+        let visibility = stage.visibility_texture(gbuffer);
+        let bounds = stage.setup.scene.bounds();
+        Ok(Self { method, size, shadows, casters, evaluation, visibility, bounds })
+    }
+
+    /// Renders frames until the size rests. Returns the plan of the last.
+    pub fn settle(&mut self, stage: &Stage, gbuffer: &GBuffer, timer: &mut Timer) -> Result<Plan> {
+        let (mut plan, _) = self.frame(stage, gbuffer, timer)?;
+        let mut unchanged = 0;
+        for _ in 0..SETTLING_FRAMES_MAX {
+            let (next, _) = self.frame(stage, gbuffer, timer)?;
+            let sizes = |plan: &Plan| plan.views().iter().map(|view| view.size_texels).collect::<Vec<_>>();
+            unchanged = if sizes(&next) == sizes(&plan) { unchanged + 1 } else { 0 };
+            plan = next;
+            if unchanged == SETTLED_FRAMES {
+                break;
+            }
+        }
+        Ok(plan)
+    }
+
+    /// One frame as a renderer would do it: plan, depth pass, demand (adaptive sizes only), evaluation.
+    pub fn frame(&mut self, stage: &Stage, gbuffer: &GBuffer, timer: &mut Timer) -> Result<(Plan, Times)> {
+        let scene = &stage.setup.scene;
+        self.shadows.read_demand();
+        let plan = self.shadows.plan(&scene.camera, &self.bounds, std::slice::from_ref(&scene.light))?;
+        self.shadows.upload(&stage.gpu.queue, &plan);
+
+        let mut encoder = stage.gpu.encoder("frame");
+        timer.start(&mut encoder);
+        for view in plan.views() {
+            let matrix = self.casters.matrix(&stage.gpu, view.clip_from_world);
+            self.casters.draw(&mut self.shadows.begin(&mut encoder, view), &matrix, &stage.geometry);
+        }
+        timer.mark(&mut encoder, "depth");
+        if self.size == Size::Adaptive {
+            self.measure(stage, gbuffer, &mut encoder)?;
+            timer.mark(&mut encoder, "demand");
+        }
+        self.evaluation.draw(&mut encoder, gbuffer, &self.shadows, &self.visibility);
+        timer.mark(&mut encoder, "evaluation");
+        timer.resolve(&mut encoder);
+        stage.gpu.finish(encoder)?;
+        Ok((plan, timer.read(&stage.gpu)?))
+    }
+
+    /// The demand of the screen under the map of the last frame, in metres at the reference plane; `None` without a
+    /// penumbra on screen.
+    pub fn demand_radius_world(&mut self, stage: &Stage, gbuffer: &GBuffer, plan: &Plan) -> Result<Option<f64>> {
+        let Some(view) = plan.views().first() else { return Ok(None) };
+        let mut encoder = stage.gpu.encoder("demand");
+        self.measure(stage, gbuffer, &mut encoder)?;
+        stage.gpu.finish(encoder)?;
+        self.shadows.read_demand();
+        Ok(self.shadows.measured_radius_world(view).flatten())
+    }
+
+    fn measure(&mut self, stage: &Stage, gbuffer: &GBuffer, encoder: &mut wgpu::CommandEncoder) -> Result<()> {
+        let camera = &stage.setup.scene.camera;
+        Ok(self.shadows.measure(&stage.gpu.queue, encoder, &gbuffer.depth_view, camera)?)
+    }
+
+    /// Visibility of every pixel of the last frame, rows from top to bottom.
+    pub fn read_visibility(&self, stage: &Stage) -> Result<Vec<f32>> {
+        Ok(bytemuck::pod_collect_to_vec(&read_texture(&stage.gpu, &self.visibility)?))
+    }
+
+    /// Evaluates the map of the last frame on another G-buffer of the same camera, for a picture with more samples.
+    pub fn evaluate(&self, stage: &Stage, gbuffer: &GBuffer) -> Result<wgpu::Texture> {
+        let visibility = stage.visibility_texture(gbuffer);
+        let mut encoder = stage.gpu.encoder("evaluation");
+        self.evaluation.draw(&mut encoder, gbuffer, &self.shadows, &visibility);
+        stage.gpu.finish(encoder)?;
+        Ok(visibility)
+    }
+
+    /// Texels per side of the texture that the map is a part of.
+    pub fn cap(&self) -> u32 {
+        self.shadows.settings().cap
+    }
+
+    /// What the drop-in counted.
+    pub fn counters(&self) -> Counters {
+        self.shadows.counters()
+    }
+}
