@@ -1,5 +1,7 @@
 //! What the command line refuses, in words, before any window opens.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::path::Path;
 use std::process::{Command, Output};
 

@@ -3,6 +3,8 @@
 //!
 //! A second state machine with the same seed runs beside the window and knows what it must show.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use std::path::Path;

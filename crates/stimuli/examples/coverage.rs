@@ -21,49 +21,33 @@ fn main() -> ExitCode {
 
 fn run(arguments: &[String]) -> Result<(), String> {
     let [kernel, radius] = arguments else {
-        return Err(
-            "two arguments are needed, KERNEL (disc, box, gauss2, gauss3) and R_OVER_A".to_owned(),
-        );
+        return Err("two arguments are needed, KERNEL (disc, box, gauss2, gauss3) and R_OVER_A".to_owned());
     };
-    let kernel = Kernel::from_name(kernel)
-        .ok_or_else(|| format!("kernel {kernel:?}; allowed are disc, box, gauss2, gauss3"))?;
+    let kernel =
+        Kernel::from_name(kernel).ok_or_else(|| format!("kernel {kernel:?}; allowed are disc, box, gauss2, gauss3"))?;
     let radius: f64 = match radius.parse() {
         Ok(radius) if (0.0..=1e6).contains(&radius) => radius,
         _ => {
-            return Err(format!(
-                "R_OVER_A is {radius:?}; allowed is a number from 0 to 1e6"
-            ));
+            return Err(format!("R_OVER_A is {radius:?}; allowed is a number from 0 to 1e6"));
         }
     };
 
     let mut points = csv::Reader::from_reader(io::stdin().lock());
     let header = points.headers().map_err(|error| error.to_string())?;
     if header.iter().map(str::trim).ne(["px", "py"]) {
-        return Err(format!(
-            "standard input, line 1: the header is {header:?}; allowed is px,py"
-        ));
+        return Err(format!("standard input, line 1: the header is {header:?}; allowed is px,py"));
     }
     let mut table = csv::Writer::from_writer(io::stdout().lock());
     let write = |error: csv::Error| format!("standard output: {error}");
-    table
-        .write_record(["px", "py", "F_stair", "F_line45", "F_step"])
-        .map_err(write)?;
+    table.write_record(["px", "py", "F_stair", "F_line45", "F_step"]).map_err(write)?;
     for record in points.records() {
         let record = record.map_err(|error| format!("standard input: {error}"))?;
         let line = record.position().map_or(0, csv::Position::line);
         let [x, y] = [coordinate(&record, 0, line)?, coordinate(&record, 1, line)?];
-        let edges = [
-            Silhouette::Stair,
-            Silhouette::Line { slope: 1.0 },
-            Silhouette::Step,
-        ];
+        let edges = [Silhouette::Stair, Silhouette::Line { slope: 1.0 }, Silhouette::Step];
         let covered = edges.map(|edge| seventeen_digits(edge.coverage(kernel, radius, x, y)));
         table
-            .write_record(
-                [record[0].trim(), record[1].trim()]
-                    .into_iter()
-                    .chain(covered.iter().map(String::as_str)),
-            )
+            .write_record([record[0].trim(), record[1].trim()].into_iter().chain(covered.iter().map(String::as_str)))
             .map_err(write)?;
     }
     table.flush().map_err(|error| error.to_string())
@@ -74,9 +58,7 @@ fn coordinate(record: &csv::StringRecord, column: usize, line: u64) -> Result<f6
     let text = record.get(column).unwrap_or("").trim();
     match text.parse::<f64>() {
         Ok(value) if value.abs() <= 1e9 => Ok(value),
-        _ => Err(format!(
-            "standard input, line {line}: {text:?}; allowed is a number from -1e9 to 1e9"
-        )),
+        _ => Err(format!("standard input, line {line}: {text:?}; allowed is a number from -1e9 to 1e9")),
     }
 }
 

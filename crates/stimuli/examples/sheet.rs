@@ -22,11 +22,7 @@ fn main() -> ExitCode {
         eprintln!("sheet: one argument is needed, the PNG file to write");
         return ExitCode::FAILURE;
     };
-    match draw().and_then(|sheet| {
-        sheet
-            .save(&path)
-            .map_err(|error| format!("{path}: {error}"))
-    }) {
+    match draw().and_then(|sheet| sheet.save(&path).map_err(|error| format!("{path}: {error}"))) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("sheet: {message}");
@@ -41,21 +37,13 @@ fn draw() -> Result<GrayImage, String> {
         .into_iter()
         .flat_map(|pattern| [Shape::Artifact, Shape::Line].map(|shape| (pattern, shape)));
     let side = |cells: u32, cell_px: u32| cells * (cell_px + GAP_PX) + GAP_PX;
-    let size = (
-        side(4, CELL_WIDTH_PX),
-        side(RATIOS.len() as u32, CELL_HEIGHT_PX),
-    );
+    let size = (side(4, CELL_WIDTH_PX), side(RATIOS.len() as u32, CELL_HEIGHT_PX));
     let mut sheet = GrayImage::from_pixel(size.0, size.1, Luma([GROUND]));
     for (column, (pattern, shape)) in columns.enumerate() {
         for (row, ratio) in RATIOS.into_iter().enumerate() {
             let picture = cell(pattern, shape, ratio).map_err(|error| error.to_string())?;
             let place = |index: usize, cell_px: u32| i64::from(side(index as u32, cell_px));
-            imageops::replace(
-                &mut sheet,
-                &picture,
-                place(column, CELL_WIDTH_PX),
-                place(row, CELL_HEIGHT_PX),
-            );
+            imageops::replace(&mut sheet, &picture, place(column, CELL_WIDTH_PX), place(row, CELL_HEIGHT_PX));
         }
     }
     Ok(sheet)

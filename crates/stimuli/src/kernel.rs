@@ -38,10 +38,7 @@ impl Kernel {
 
     /// The kernel of a name in [`Kernel::NAMED`].
     pub fn from_name(name: &str) -> Option<Kernel> {
-        Kernel::NAMED
-            .iter()
-            .find(|(known, _)| *known == name)
-            .map(|&(_, kernel)| kernel)
+        Kernel::NAMED.iter().find(|(known, _)| *known == name).map(|&(_, kernel)| kernel)
     }
 
     /// Distance beyond which nothing of the kernel is left, in radii.

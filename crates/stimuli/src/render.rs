@@ -17,10 +17,7 @@ impl Stimulus {
     pub fn render(&self, width_px: u32, height_px: u32) -> Result<GrayImage, Error> {
         self.check()?;
         if !(1..=MAX_SIDE_PX).contains(&width_px) || !(1..=MAX_SIDE_PX).contains(&height_px) {
-            return Err(Error::Size {
-                width_px,
-                height_px,
-            });
+            return Err(Error::Size { width_px, height_px });
         }
         let edge = self.edge(f64::from(width_px));
         let radius = self.radius_px / self.texel_px;
@@ -47,20 +44,12 @@ impl Stimulus {
         };
         let silhouette = match (self.shape, self.pattern) {
             (Shape::Line, _) => {
-                return Edge {
-                    silhouette: Silhouette::Line { slope },
-                    x: 0.0,
-                    y: 0.0,
-                };
+                return Edge { silhouette: Silhouette::Line { slope }, x: 0.0, y: 0.0 };
             }
             (Shape::Artifact, Pattern::Stair) => Silhouette::Stair,
             (Shape::Artifact, Pattern::Step) => Silhouette::Step,
         };
-        Edge {
-            silhouette,
-            x,
-            y: slope * x,
-        }
+        Edge { silhouette, x, y: slope * x }
     }
 }
 

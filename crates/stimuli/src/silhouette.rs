@@ -36,15 +36,11 @@ impl Silhouette {
     /// point on it gets the mean of what surrounds it.
     pub fn coverage(self, kernel: Kernel, radius: f64, x: f64, y: f64) -> f64 {
         let in_radii = |length: f64| if length == 0.0 { 0.0 } else { length / radius };
-        let quadrant =
-            |left_of: f64, below: f64| kernel.quadrant(in_radii(left_of - x), in_radii(below - y));
+        let quadrant = |left_of: f64, below: f64| kernel.quadrant(in_radii(left_of - x), in_radii(below - y));
         match self {
             Silhouette::Line { slope } => {
                 let length = slope.hypot(1.0);
-                kernel.half_plane(
-                    in_radii((slope * x - y) / length),
-                    [-slope / length, 1.0 / length],
-                )
+                kernel.half_plane(in_radii((slope * x - y) / length), [-slope / length, 1.0 / length])
             }
             Silhouette::Step => {
                 let left_column_cut = quadrant(0.0, -0.5) - quadrant(0.0, 0.5);

@@ -63,39 +63,11 @@ impl Stimulus {
     /// Refuses numbers outside the ranges that the fields state; the error names the field.
     pub fn check(&self) -> Result<(), Error> {
         let in_range = |field, value: f64, allowed, good: bool| {
-            if value.is_finite() && good {
-                Ok(())
-            } else {
-                Err(Error::Field {
-                    field,
-                    value,
-                    allowed,
-                })
-            }
+            if value.is_finite() && good { Ok(()) } else { Err(Error::Field { field, value, allowed }) }
         };
-        in_range(
-            "texel_px",
-            self.texel_px,
-            "a finite length above 0",
-            self.texel_px > 0.0,
-        )?;
-        in_range(
-            "radius_px",
-            self.radius_px,
-            "a finite length of at least 0",
-            self.radius_px >= 0.0,
-        )?;
-        in_range(
-            "contrast",
-            self.contrast,
-            "0 to 1",
-            (0.0..=1.0).contains(&self.contrast),
-        )?;
-        in_range(
-            "phase",
-            self.phase,
-            "0 to 1",
-            (0.0..=1.0).contains(&self.phase),
-        )
+        in_range("texel_px", self.texel_px, "a finite length above 0", self.texel_px > 0.0)?;
+        in_range("radius_px", self.radius_px, "a finite length of at least 0", self.radius_px >= 0.0)?;
+        in_range("contrast", self.contrast, "0 to 1", (0.0..=1.0).contains(&self.contrast))?;
+        in_range("phase", self.phase, "0 to 1", (0.0..=1.0).contains(&self.phase))
     }
 }

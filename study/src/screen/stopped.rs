@@ -13,7 +13,7 @@ pub(crate) fn stopped(ui: &mut Ui, problem: &str, directory: &Path) -> Option<Ac
         ui.label("Please call the person who runs the study.");
         ui.label(problem);
         ui.label(format!(
-            "The answers before are in {}. When the cause is removed, --resume goes on from there.",
+            "The answers given so far are in {}. When the cause is removed, --resume goes on from there.",
             directory.display()
         ));
         page::go_on(ui, "Close", Action::Close)

@@ -49,11 +49,13 @@ pub(crate) fn trial(
         }
         None => text(ui, screen.center(), Align2::CENTER_CENTER, TextStyle::Heading, "+"),
     }
-    let clicked = [(Side::Left, places.left, "←  Left"), (Side::Right, places.right, "Right  →")]
+    let clicked = [(Side::Left, places.left, "Left"), (Side::Right, places.right, "Right")]
         .into_iter()
         .filter(|(_, picture, label)| button(ui, *picture, label, was_shown))
         .map(|(side, ..)| Action::Answer(side))
         .next();
+    let hint = Pos2::new(screen.center().x, places.left.bottom() + 18.0 + 0.5 * BUTTON.y);
+    text(ui, hint, Align2::CENTER_CENTER, TextStyle::Small, "arrow keys, or F and J");
     let is_practice = matches!(experiment.stage(), Stage::Practice(_));
     progress(ui, screen, experiment.progress(), is_practice);
     Ok(key.or(clicked))
