@@ -58,8 +58,7 @@ fn truth(rays: &Rays, view: &View, kind: &Filter, points: &[Point]) -> Vec<(f64,
     let taps = Taps::default();
     let at_point = |point: &Point| {
         let position = point.position.as_dvec3();
-        let plane =
-            ReceiverPlane::new(fit, position, point.normal.as_dvec3(), &Bias::without_texels(), DVec2::ZERO);
+        let plane = ReceiverPlane::new(fit, position, point.normal.as_dvec3(), &Bias::without_texels(), DVec2::ZERO);
         let from = |offset: DVec2, depth: f64| fit.world_from_plane(fit.plane_from_world(position) + offset, depth);
         let lookup = |offset, depth| {
             f64::from(u8::from(rays.free(from(offset, fit.depth_near), from(offset, depth - rays.epsilon()))))
@@ -122,7 +121,11 @@ fn a_fixed_kernel_over_the_map_that_the_relation_asks_for_is_close_to_the_kernel
         let coarse = rms(&rig.visibility(&points), &truth);
 
         let shaded = truth.iter().filter(|(visibility, _)| *visibility < 1.0).count();
-        println!("{name}: {:?} rms {adaptive:.4}, {coarse_size:?} rms {coarse:.4}, {shaded} of {} shaded", view.size_texels, points.len());
+        println!(
+            "{name}: {:?} rms {adaptive:.4}, {coarse_size:?} rms {coarse:.4}, {shaded} of {} shaded",
+            view.size_texels,
+            points.len()
+        );
         assert!(shaded * 50 > points.len(), "{name} has shadows on screen");
         assert!(adaptive < 0.08 && coarse > 1.5 * adaptive, "{name}: {adaptive} {coarse}");
     }
@@ -184,8 +187,7 @@ fn the_measured_minimum_is_no_larger_than_what_rays_find_in_the_penumbra() {
         .filter(|((visibility, _), _)| (0.02..0.98).contains(visibility))
         .map(|((_, radius), point)| {
             let position = point.position.as_dvec3();
-            let footprint =
-                scumble::scumble_core::pixel_footprint_world(&scene.camera, &view.fit, position, HEIGHT);
+            let footprint = scumble::scumble_core::pixel_footprint_world(&scene.camera, &view.fit, position, HEIGHT);
             rig.shadows.settings().demand_radius_world(radius, footprint)
         })
         .fold(f64::INFINITY, f64::min);
