@@ -4,12 +4,13 @@
 pub mod casters;
 pub mod rig;
 
-use std::sync::OnceLock;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// A device with its queue.
 pub struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
+    turn: Mutex<()>,
 }
 
 /// The device of this process; fails with words where there is none.
@@ -36,10 +37,15 @@ fn open() -> Gpu {
         trace: wgpu::Trace::Off,
     }))
     .expect("the adapter gives a device with WebGPU's default limits");
-    Gpu { device, queue }
+    Gpu { device, queue, turn: Mutex::new(()) }
 }
 
 impl Gpu {
+    /// Submitting and polling run the callbacks of every thread's work; with this held, one's own have run by the end.
+    fn alone(&self) -> MutexGuard<'_, ()> {
+        self.turn.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// An encoder.
     pub fn encoder(&self) -> wgpu::CommandEncoder {
         self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
@@ -47,6 +53,7 @@ impl Gpu {
 
     /// Submits and waits until everything is done and every callback has run.
     pub fn finish(&self, encoder: wgpu::CommandEncoder) {
+        let _alone = self.alone();
         self.queue.submit([encoder.finish()]);
         self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
     }
@@ -74,6 +81,7 @@ impl Gpu {
         });
         let mut encoder = self.encoder();
         encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+        let _alone = self.alone();
         self.queue.submit([encoder.finish()]);
         copy.map_async(wgpu::MapMode::Read, .., |result| result.expect("the copy can be mapped"));
         self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
