@@ -7,7 +7,7 @@
 
 const WHITE: f32 = 3.2;
 const SHEEN: f32 = 0.04;          // reflectance of a dielectric at normal incidence
-const SHEEN_SHARE: f32 = 0.5;     // of a mirror's: most surfaces are rough
+const SHEEN_SHARE: f32 = 0.35;    // of a mirror's: most surfaces are rough
 const HIGHLIGHT_EXPONENT: f32 = 48.0;
 
 // Reinhard's curve with a white point: 0 -> 0, WHITE -> 1.

@@ -26,6 +26,7 @@ fn adapter() -> Result<wgpu::Adapter> {
 }
 
 /// An open device with its queue.
+#[derive(Clone)]
 pub struct Gpu {
     /// Makes resources.
     pub device: wgpu::Device,

@@ -16,8 +16,23 @@ pub struct EvaluationPass {
 }
 
 impl EvaluationPass {
-    /// Builds the pipeline, with the filter as a constant for the compiler to fold.
+    /// Visibility, with the filter as a constant for the compiler to fold.
     pub fn new(gpu: &Gpu, gbuffer_layout: &wgpu::BindGroupLayout, shadows: &Shadows, filter: &Filter) -> Self {
+        Self::of_entry_point("evaluate", gpu, gbuffer_layout, shadows, filter)
+    }
+
+    /// The radius of the filter instead of its result.
+    pub fn of_radii(gpu: &Gpu, gbuffer_layout: &wgpu::BindGroupLayout, shadows: &Shadows, filter: &Filter) -> Self {
+        Self::of_entry_point("radius", gpu, gbuffer_layout, shadows, filter)
+    }
+
+    fn of_entry_point(
+        entry_point: &str,
+        gpu: &Gpu,
+        gbuffer_layout: &wgpu::BindGroupLayout,
+        shadows: &Shadows,
+        filter: &Filter,
+    ) -> Self {
         let source = [
             include_str!("../shader/gbuffer_read.wgsl"),
             &shadow_wgsl(SHADOW_GROUP),
@@ -27,11 +42,11 @@ impl EvaluationPass {
         let constants = [(FILTER_OVERRIDE, filter_constant(filter))];
         let layouts = [gbuffer_layout, shadows.bind_group_layout()];
         let pipeline =
-            fullscreen::pipeline(gpu, "evaluation", &source, "evaluate", &constants, &layouts, VISIBILITY_FORMAT);
+            fullscreen::pipeline(gpu, entry_point, &source, entry_point, &constants, &layouts, VISIBILITY_FORMAT);
         Self { pipeline }
     }
 
-    /// Fills a visibility texture of the G-buffer's size.
+    /// Fills a texture of the G-buffer's size.
     pub fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,

@@ -58,13 +58,13 @@ impl LightingUniform {
         };
         match &scene.light {
             Light::Directional { direction, .. } => Self {
-                light_color: Vec3::new(2.9, 2.62, 2.2),
+                light_color: Vec3::new(2.5, 2.22, 1.8),
                 light_direction: direction.normalize().as_vec3(),
                 cone_cosine: NO_CONE,
-                zenith_color: Vec3::new(0.26, 0.45, 0.82),
-                horizon_color: Vec3::new(0.86, 0.93, 1.0),
+                zenith_color: Vec3::new(0.20, 0.38, 0.80),
+                horizon_color: Vec3::new(0.60, 0.78, 1.05),
                 ground_color: Vec3::new(0.30, 0.27, 0.23),
-                below_color: Vec3::new(0.66, 0.68, 0.70),
+                below_color: Vec3::new(0.50, 0.56, 0.62),
                 ..common
             },
             Light::Spot { position, direction, cone_half_angle, .. } => Self {

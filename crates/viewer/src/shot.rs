@@ -59,13 +59,11 @@ pub fn run(options: &Shot) -> Result<()> {
     let receivers = stage.receivers(size_px, 1)?;
     let mut timer = Timer::new(&stage.gpu);
     let mut variant = Variant::new(&stage, &receivers, options.method, options.size)?;
-    let mut plan = variant.settle(&stage, &receivers, &mut timer)?;
+    variant.settle(&stage, &receivers, &mut timer)?;
 
     let mut times: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
     for _ in 0..TIMED_FRAMES {
-        let parts;
-        (plan, parts) = variant.frame(&stage, &receivers, &mut timer)?;
-        for (part, milliseconds) in parts {
+        for (part, milliseconds) in variant.frame(&stage, &receivers, &mut timer)? {
             times.entry(part).or_default().push(milliseconds);
         }
     }
@@ -75,6 +73,8 @@ pub fn run(options: &Shot) -> Result<()> {
     write_png(&picture_path, &stage.picture(&samples, &visibility, options.samples)?)?;
 
     let medians = times.iter().filter_map(|(&part, list)| Some((part, Spread::of(list)?.median)));
+    let demand = DemandRecord { radius_world: variant.demand_radius_world(&stage, &receivers)? };
+    let plan = variant.plan()?;
     let record = ShotRecord {
         schema: "scumble/shot/1",
         scene: &stage.setup.scene.name,
@@ -86,8 +86,8 @@ pub fn run(options: &Shot) -> Result<()> {
         pcf_radius_plane: stage.setup.pcf_radius_plane,
         ratio: RatioRecord::of(&stage.setup),
         texels: plan.texels(),
-        maps: MapRecord::of(&plan, variant.cap()),
-        demand: DemandRecord { radius_world: variant.demand_radius_world(&stage, &receivers, &plan)? },
+        maps: MapRecord::of(plan, variant.cap()),
+        demand,
         times_ms: medians.collect(),
         machine: MachineRecord::of(&stage.gpu),
     };

@@ -1,5 +1,75 @@
-//! x
+//! `truth`: the picture that a map without texels would give, and its visibility as raw numbers.
+
 use anyhow::Result;
-pub fn run(_: &crate::cli::Truth) -> Result<()> {
+use scumble::Light;
+use serde::Serialize;
+
+use crate::bench::progress;
+use crate::cli::{Size, Truth};
+use crate::device::Gpu;
+use crate::kernel_truth::KernelTruth;
+use crate::output::{Kind, claim, write_json, write_png, write_raw};
+use crate::setup::Setup;
+use crate::stage::Stage;
+use crate::timer::Timer;
+use crate::variant::Variant;
+
+/// Samples per pixel along x and along y.
+const SAMPLES_PER_SIDE: u32 = 2;
+/// Side of the map whose fit says where the reference plane is; it is never looked at.
+const FIT_TEXELS: u32 = 8;
+
+/// The JSON file beside the picture, which says what the raw numbers are.
+#[derive(Serialize)]
+struct TruthRecord<'a> {
+    schema: &'static str,
+    scene: &'a str,
+    method: &'static str,
+    light: &'a Light,
+    pcf_radius_plane: f64,
+    /// Of the picture.
+    width: u32,
+    height: u32,
+    /// Of the .f32 file: little-endian, rows from top to bottom, visibility 0 dark to 1 lit.
+    raw_width: u32,
+    raw_height: u32,
+}
+
+/// Runs the command.
+pub fn run(options: &Truth) -> Result<()> {
+    let conditions = &options.view.conditions;
+    let picture_path = claim(&options.out, Kind::Png)?;
+    let record_path = claim(&options.out.with_extension("json"), Kind::Json)?;
+    let raw_path = claim(&options.out.with_extension("f32"), Kind::Raw)?;
+    let setup = Setup::open(&options.view.scene, conditions)?;
+    let stage = Stage::new(Gpu::open()?, setup)?;
+    let samples = stage.receivers([conditions.width, conditions.height], SAMPLES_PER_SIDE)?;
+    let mut timer = Timer::new(&stage.gpu);
+    let mut fitted = Variant::new(&stage, &samples, options.method, Size::Fixed([FIT_TEXELS; 2]))?;
+    fitted.frame(&stage, &samples, &mut timer)?;
+
+    let surfaces = samples.read_surfaces(&stage.gpu)?;
+    let bar = progress(&format!("truth of {}", stage.setup.scene.name), surfaces.len() as u64);
+    let filter = stage.setup.filter(options.method);
+    let truth = KernelTruth::new(&stage.setup);
+    let visibility = truth.visibility(&filter, fitted.plan()?, &surfaces, samples.size_px[0], &bar);
+    bar.finish_and_clear();
+
+    let texture = stage.upload_visibility(&samples, &visibility);
+    write_png(&picture_path, &stage.picture(&samples, &texture, SAMPLES_PER_SIDE)?)?;
+    write_raw(&raw_path, &visibility)?;
+    let record = TruthRecord {
+        schema: "scumble/truth/1",
+        scene: &stage.setup.scene.name,
+        method: options.method.name(),
+        light: &stage.setup.scene.light,
+        pcf_radius_plane: stage.setup.pcf_radius_plane,
+        width: conditions.width,
+        height: conditions.height,
+        raw_width: samples.size_px[0],
+        raw_height: samples.size_px[1],
+    };
+    write_json(&record_path, &record)?;
+    println!("{}, {}, {}", picture_path.display(), raw_path.display(), record_path.display());
     Ok(())
 }

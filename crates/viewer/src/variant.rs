@@ -34,6 +34,7 @@ pub struct Variant {
     evaluation: EvaluationPass,
     visibility: wgpu::Texture,
     bounds: Aabb,
+    plan: Option<Plan>,
 }
 
 impl Variant {
@@ -60,27 +61,37 @@ impl Variant {
         let evaluation = EvaluationPass::new(&stage.gpu, &stage.gbuffer_pass.layout, &shadows, &filter);
         let visibility = stage.visibility_texture(gbuffer);
         let bounds = stage.setup.scene.bounds();
-        Ok(Self { method, size, shadows, casters, evaluation, visibility, bounds })
+        Ok(Self { method, size, shadows, casters, evaluation, visibility, bounds, plan: None })
     }
 
-    /// Renders frames until the size rests. Returns the plan of the last.
-    pub fn settle(&mut self, stage: &Stage, gbuffer: &GBuffer, timer: &mut Timer) -> Result<Plan> {
-        let (mut plan, _) = self.frame(stage, gbuffer, timer)?;
+    /// Renders frames until the size rests.
+    pub fn settle(&mut self, stage: &Stage, gbuffer: &GBuffer, timer: &mut Timer) -> Result<()> {
+        let mut sizes = Vec::new();
         let mut unchanged = 0;
         for _ in 0..SETTLING_FRAMES_MAX {
-            let (next, _) = self.frame(stage, gbuffer, timer)?;
-            let sizes = |plan: &Plan| plan.views().iter().map(|view| view.size_texels).collect::<Vec<_>>();
-            unchanged = if sizes(&next) == sizes(&plan) { unchanged + 1 } else { 0 };
-            plan = next;
+            self.frame(stage, gbuffer, timer)?;
+            let next: Vec<_> = self.plan()?.views().iter().map(|view| view.size_texels).collect();
+            unchanged = if next == sizes { unchanged + 1 } else { 0 };
+            sizes = next;
             if unchanged == SETTLED_FRAMES {
                 break;
             }
         }
-        Ok(plan)
+        Ok(())
+    }
+
+    /// The plan of the last frame.
+    pub fn plan(&self) -> Result<&Plan> {
+        self.plan.as_ref().context("no frame has been planned")
+    }
+
+    /// Whether a frame has a demand pass.
+    pub fn measures(&self) -> bool {
+        self.size == Size::Adaptive
     }
 
     /// One frame as a renderer would do it: plan, depth pass, demand (adaptive sizes only), evaluation.
-    pub fn frame(&mut self, stage: &Stage, gbuffer: &GBuffer, timer: &mut Timer) -> Result<(Plan, Times)> {
+    pub fn frame(&mut self, stage: &Stage, gbuffer: &GBuffer, timer: &mut Timer) -> Result<Times> {
         let scene = &stage.setup.scene;
         self.shadows.read_demand();
         let plan = self.shadows.plan(&scene.camera, &self.bounds, std::slice::from_ref(&scene.light))?;
@@ -93,7 +104,7 @@ impl Variant {
             self.casters.draw(&mut self.shadows.begin(&mut encoder, view), &matrix, &stage.geometry);
         }
         timer.mark(&mut encoder, "depth");
-        if self.size == Size::Adaptive {
+        if self.measures() {
             self.measure(stage, gbuffer, &mut encoder)?;
             timer.mark(&mut encoder, "demand");
         }
@@ -101,18 +112,19 @@ impl Variant {
         timer.mark(&mut encoder, "evaluation");
         timer.resolve(&mut encoder);
         stage.gpu.finish(encoder)?;
-        Ok((plan, timer.read(&stage.gpu)?))
+        self.plan = Some(plan);
+        timer.read(&stage.gpu)
     }
 
     /// The demand of the screen under the map of the last frame, in metres at the reference plane; `None` without a
     /// penumbra on screen.
-    pub fn demand_radius_world(&mut self, stage: &Stage, gbuffer: &GBuffer, plan: &Plan) -> Result<Option<f64>> {
-        let Some(view) = plan.views().first() else { return Ok(None) };
+    pub fn demand_radius_world(&mut self, stage: &Stage, gbuffer: &GBuffer) -> Result<Option<f64>> {
+        let Some(view) = self.plan()?.views().first().cloned() else { return Ok(None) };
         let mut encoder = stage.gpu.encoder("demand");
         self.measure(stage, gbuffer, &mut encoder)?;
         stage.gpu.finish(encoder)?;
         self.shadows.read_demand();
-        Ok(self.shadows.measured_radius_world(view).flatten())
+        Ok(self.shadows.measured_radius_world(&view).flatten())
     }
 
     fn measure(&mut self, stage: &Stage, gbuffer: &GBuffer, encoder: &mut wgpu::CommandEncoder) -> Result<()> {
@@ -123,6 +135,17 @@ impl Variant {
     /// Visibility of every pixel of the last frame, rows from top to bottom.
     pub fn read_visibility(&self, stage: &Stage) -> Result<Vec<f32>> {
         Ok(bytemuck::pod_collect_to_vec(&read_texture(&stage.gpu, &self.visibility)?))
+    }
+
+    /// Filter radius of every pixel under the map of the last frame, before the lower clamp, at the reference plane.
+    pub fn read_radii(&self, stage: &Stage, gbuffer: &GBuffer) -> Result<Vec<f32>> {
+        let filter = stage.setup.filter(self.method);
+        let pass = EvaluationPass::of_radii(&stage.gpu, &stage.gbuffer_pass.layout, &self.shadows, &filter);
+        let radii = stage.visibility_texture(gbuffer);
+        let mut encoder = stage.gpu.encoder("radii");
+        pass.draw(&mut encoder, gbuffer, &self.shadows, &radii);
+        stage.gpu.finish(encoder)?;
+        Ok(bytemuck::pod_collect_to_vec(&read_texture(&stage.gpu, &radii)?))
     }
 
     /// Evaluates the map of the last frame on another G-buffer of the same camera, for a picture with more samples.

@@ -1,0 +1,138 @@
+//! How far a variant's visibility is from the truth, over the pixels where it matters.
+//!
+//! *Lit-facing* pixels turn their geometric normal towards the light and lie in its cone: the others are dark whatever the
+//! map says. *Penumbra* pixels are those of them whose true visibility is neither 0 nor 1: there the texels show.
+//! The *violation share* is the share of penumbra pixels with a filter whose radius is less than c texels of the map.
+
+use anyhow::Result;
+use scumble::Light;
+use serde::Serialize;
+
+use crate::gbuffer::Surface;
+use crate::stage::Stage;
+use crate::variant::Variant;
+
+/// Rounding that does not make a radius of exactly c texels a violation.
+const VIOLATION_SLACK: f64 = 1e-4;
+
+/// Errors of a variant.
+#[derive(Clone, Debug, Serialize)]
+pub struct Comparison {
+    /// Over all pixels that face the light.
+    pub lit_facing: MaskedError,
+    /// Over those with partial visibility.
+    pub penumbra: MaskedError,
+    /// Share of the penumbra whose filter is narrower than the relation asks for; null without a soft filter or a map.
+    pub violation_share: Option<f64>,
+}
+
+/// Errors of the shadow fraction over some pixels.
+#[derive(Clone, Debug, Serialize)]
+pub struct MaskedError {
+    /// How many pixels.
+    pub pixels: usize,
+    /// Largest absolute error.
+    pub max: f64,
+    /// 99 % of the absolute errors are at most this.
+    pub p99: f64,
+    /// Root of the mean square.
+    pub rms: f64,
+    /// Mean signed error; positive is brighter than the truth.
+    pub bias: f64,
+}
+
+/// Compares the visibility of every pixel with the truth; `radii` are those of the filter before its lower clamp.
+pub fn compare(
+    stage: &Stage,
+    variant: &Variant,
+    surfaces: &[Option<Surface>],
+    visibility: &[f32],
+    truth: &[f32],
+    radii: &[f32],
+) -> Result<Comparison> {
+    let light = &stage.setup.scene.light;
+    let lit_facing: Vec<bool> =
+        surfaces.iter().map(|surface| surface.is_some_and(|surface| faces(light, &surface))).collect();
+    let penumbra: Vec<bool> =
+        lit_facing.iter().zip(truth).map(|(&facing, &truth)| facing && truth > 0.0 && truth < 1.0).collect();
+    Ok(Comparison {
+        lit_facing: masked(visibility, truth, &lit_facing),
+        penumbra: masked(visibility, truth, &penumbra),
+        violation_share: violation_share(stage, variant, &penumbra, radii)?,
+    })
+}
+
+/// Errors over the pixels of a mask; zeros over none.
+fn masked(visibility: &[f32], truth: &[f32], mask: &[bool]) -> MaskedError {
+    let differences = visibility.iter().zip(truth).map(|(&found, &truth)| f64::from(found) - f64::from(truth));
+    let signed: Vec<f64> = differences.zip(mask).filter(|(_, inside)| **inside).map(|(error, _)| error).collect();
+    let mut sizes: Vec<f64> = signed.iter().map(|error| error.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let count = sizes.len();
+    // The smallest error that 99 % of the pixels do not exceed.
+    let p99 = sizes.get((0.99 * count as f64).ceil().max(1.0) as usize - 1);
+    let mean = |sum: f64| if count == 0 { 0.0 } else { sum / count as f64 };
+    MaskedError {
+        pixels: count,
+        max: sizes.last().copied().unwrap_or(0.0),
+        p99: p99.copied().unwrap_or(0.0),
+        rms: mean(sizes.iter().map(|error| error * error).sum()).sqrt(),
+        bias: mean(signed.iter().sum()),
+    }
+}
+
+/// Whether the light reaches this side of a surface where nothing stands in the way.
+fn faces(light: &Light, surface: &Surface) -> bool {
+    let to_light = light.towards_light(surface.position.as_dvec3());
+    let is_in_cone = match *light {
+        Light::Directional { .. } => true,
+        Light::Spot { direction, cone_half_angle, .. } => -to_light.dot(direction.normalize()) > cone_half_angle.cos(),
+    };
+    is_in_cone && to_light.dot(surface.normal.as_dvec3()) > 0.0
+}
+
+fn violation_share(stage: &Stage, variant: &Variant, penumbra: &[bool], radii: &[f32]) -> Result<Option<f64>> {
+    let Some(view) = variant.plan()?.views().first() else { return Ok(None) };
+    let allowed = stage.setup.relation.radius_from_texel(view.texel_world().max_element()) * (1.0 - VIOLATION_SLACK);
+    let filtered = penumbra.iter().zip(radii).filter(|&(&inside, &radius)| inside && radius > 0.0);
+    let (mut count, mut violations) = (0u64, 0u64);
+    for (_, &radius) in filtered {
+        count += 1;
+        violations += u64::from(f64::from(radius).max(view.radius_min_world) < allowed);
+    }
+    Ok((count > 0).then(|| violations as f64 / count as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DVec3, Vec3};
+
+    #[test]
+    fn errors_of_a_known_list_are_known() {
+        let error = masked(&[0.5, 1.0, 0.0, 9.0], &[0.5, 0.5, 0.1, 0.0], &[true, true, true, false]);
+        assert_eq!((error.pixels, error.max, error.p99), (3, 0.5, 0.5));
+        assert!((error.rms - (0.26f64 / 3.0).sqrt()).abs() < 1e-6, "{}", error.rms);
+        assert!((error.bias - 0.4 / 3.0).abs() < 1e-6, "{}", error.bias);
+    }
+
+    #[test]
+    fn no_pixels_have_no_error() {
+        let error = masked(&[1.0], &[0.0], &[false]);
+        assert_eq!((error.pixels, error.max, error.rms), (0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn a_surface_faces_a_lamp_only_inside_of_its_cone() {
+        let lamp = Light::Spot {
+            position: DVec3::new(0.0, 2.0, 0.0),
+            direction: DVec3::NEG_Y,
+            cone_half_angle: 0.5,
+            radius_world: 0.1,
+        };
+        let floor = |x, normal| Surface { position: Vec3::new(x, 0.0, 0.0), normal };
+        assert!(faces(&lamp, &floor(0.5, Vec3::Y)));
+        assert!(!faces(&lamp, &floor(1.5, Vec3::Y)));
+        assert!(!faces(&lamp, &floor(0.5, Vec3::NEG_Y)));
+    }
+}

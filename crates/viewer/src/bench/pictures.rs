@@ -1,0 +1,70 @@
+//! The pictures of a scene under one method: every size, the truth, and what differs, all on one scale.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use scumble::{Filter, Plan};
+
+use crate::bench::error_map::error_map;
+use crate::bench::progress;
+use crate::gbuffer::{GBuffer, Surface};
+use crate::kernel_truth::KernelTruth;
+use crate::output::{Kind, claim, write_png};
+use crate::stage::Stage;
+use crate::variant::Variant;
+
+/// Names and paths of pictures.
+pub type Files = Vec<(&'static str, PathBuf)>;
+
+/// Where the pictures of a method go, and the receivers that they show.
+pub struct Pictures<'a> {
+    stage: &'a Stage,
+    directory: PathBuf,
+    size_px: [u32; 2],
+    samples_per_side: u32,
+    samples: GBuffer,
+}
+
+impl<'a> Pictures<'a> {
+    /// Draws the receivers with as many samples as the pictures average.
+    pub fn new(stage: &'a Stage, directory: &Path, size_px: [u32; 2], samples_per_side: u32) -> Result<Self> {
+        let samples = stage.receivers(size_px, samples_per_side)?;
+        Ok(Self { stage, directory: directory.to_owned(), size_px, samples_per_side, samples })
+    }
+
+    /// The picture of the truth; `visibility` is that of one sample per pixel.
+    pub fn truth(&self, truth: &KernelTruth, filter: &Filter, plan: &Plan, visibility: &[f32]) -> Result<PathBuf> {
+        let path = claim(&self.directory.join("truth.png"), Kind::Png)?;
+        let finer;
+        let visibility = if self.samples_per_side == 1 {
+            visibility
+        } else {
+            let surfaces: Vec<Option<Surface>> = self.samples.read_surfaces(&self.stage.gpu)?;
+            let bar = progress("truth of the picture", surfaces.len() as u64);
+            finer = truth.visibility(filter, plan, &surfaces, self.samples.size_px[0], &bar);
+            bar.finish_and_clear();
+            &finer
+        };
+        let texture = self.stage.upload_visibility(&self.samples, visibility);
+        write_png(&path, &self.stage.picture(&self.samples, &texture, self.samples_per_side)?)?;
+        Ok(path)
+    }
+
+    /// The picture of a variant and its error map; the list names them and the truth.
+    pub fn variant(
+        &self,
+        variant: &Variant,
+        label: &str,
+        visibility: &[f32],
+        truth: &[f32],
+        truth_picture: &Path,
+    ) -> Result<Files> {
+        let picture = claim(&self.directory.join(format!("{label}.png")), Kind::Png)?;
+        let error = claim(&self.directory.join(format!("{label}-error.png")), Kind::Png)?;
+        let texture = variant.evaluate(self.stage, &self.samples)?;
+        write_png(&picture, &self.stage.picture(&self.samples, &texture, self.samples_per_side)?)?;
+        let [width, height] = self.size_px;
+        write_png(&error, &error_map(visibility, truth, width, height)?)?;
+        Ok(vec![("picture", picture), ("error_map", error), ("truth", truth_picture.to_owned())])
+    }
+}
