@@ -103,6 +103,9 @@ impl Shadows {
 
     /// The maps that a frame needs. Pure: nothing changes until [`Shadows::upload`].
     ///
+    /// `scene` bounds all that casts or receives. Keep what cannot cast behind a lamp, such as the ceiling that it hangs
+    /// from, out of it: the reference plane of a spot is where its cone enters these bounds.
+    ///
     /// # Errors
     /// A camera, scene or light out of range, and more lights than `options.maps`.
     pub fn plan(&self, camera: &Camera, scene: &Aabb, lights: &[Light]) -> Result<Plan, Error> {
@@ -184,6 +187,7 @@ impl Shadows {
     /// The result comes back frames later; see [`Shadows::read_demand`]. One call a submission.
     ///
     /// `prepass` is a view of the whole of a single-sample depth texture drawn with `camera.clip_from_world()`, cleared to 1.
+    /// A plan without maps records nothing.
     ///
     /// # Errors
     /// A prepass that cannot be read, a camera out of range, a device without compute shaders.
