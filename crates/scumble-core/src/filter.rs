@@ -20,6 +20,10 @@ use crate::fit::Fit;
 use crate::kernel::poisson_disc;
 use crate::light::Light;
 
+/// Depth of the nearest occluder that a spot's search is made for, as a share of the receiver's depth: its penumbra is
+/// four times the lamp in radius.
+pub const SEARCH_SHARE: f64 = 0.2;
+
 /// The taps of all filters, in the unit disc.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Taps {
@@ -127,13 +131,17 @@ pub fn blocker_search(
 }
 
 /// Radius around the receiver in which an occluder can shade it, at the reference plane, in metres (Eq. 5.8).
+///
+/// That is the filter's radius for an occluder at the near plane. Where a spot's near plane is close to it, as under a
+/// ceiling, that is the whole lamp on a picture smaller than the lamp, and all taps miss the map; so occluders nearer than
+/// [`SEARCH_SHARE`] of the receiver's depth are not searched to their full width.
 #[must_use]
 pub fn search_radius_world(fit: &Fit, receiver_depth: f64) -> f64 {
-    let gap = (receiver_depth - fit.depth_near).max(0.0);
-    match fit.light {
-        Light::Directional { half_angle, .. } => gap * half_angle.tan(),
-        Light::Spot { radius_world, .. } => radius_world * gap / receiver_depth,
-    }
+    let nearest = match fit.light {
+        Light::Directional { .. } => fit.depth_near,
+        Light::Spot { .. } => fit.depth_near.max(SEARCH_SHARE * receiver_depth),
+    };
+    filter_radius_world(fit, receiver_depth, nearest)
 }
 
 /// Radius of the filter that stands for the penumbra, at the reference plane, in metres (Eq. 5.10 and 5.11); 0 when the

@@ -4,19 +4,12 @@
 // z_r receiver, z_b mean blocker, z_n near plane, light-space depths; radii at the reference plane.
 // CPU twin: `scumble_core::filter`.
 
+const SHADOW_SEARCH_SHARE: f32 = 0.2;
+
 struct ShadowBlockers {
     count: u32,
     // Mean light-space depth; the receiver's where there is none.
     mean_depth: f32,
-}
-
-fn shadow_search_radius(light: u32, receiver_depth: f32) -> f32 {
-    let size = shadow_lights.lights[light].light_size;
-    let distance = max(receiver_depth - shadow_lights.lights[light].depth_near, 0.0);
-    if shadow_lights.lights[light].is_spot == 1u {
-        return size * distance / receiver_depth;
-    }
-    return size * distance;
 }
 
 fn shadow_filter_radius(light: u32, receiver_depth: f32, blocker_depth: f32) -> f32 {
@@ -26,6 +19,16 @@ fn shadow_filter_radius(light: u32, receiver_depth: f32, blocker_depth: f32) -> 
         return size * distance / blocker_depth * shadow_lights.lights[light].depth_near / receiver_depth;
     }
     return size * distance;
+}
+
+// The filter's radius for a blocker at the near plane of the map; under a spot, at SHADOW_SEARCH_SHARE of the receiver's
+// depth where the near plane is nearer.
+fn shadow_search_radius(light: u32, receiver_depth: f32) -> f32 {
+    var nearest = shadow_lights.lights[light].depth_near;
+    if shadow_lights.lights[light].is_spot == 1u {
+        nearest = max(nearest, SHADOW_SEARCH_SHARE * receiver_depth);
+    }
+    return shadow_filter_radius(light, receiver_depth, nearest);
 }
 
 // Map depths in front of the receiver's tangent plane within `radius_plane`, one texel a tap.

@@ -156,15 +156,16 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
     );
 }
 
-/// Value of a WGSL constant of type u32.
-fn constant(module: &naga::Module, name: &str) -> u32 {
+/// Value of a WGSL constant of type u32 or f32.
+fn constant(module: &naga::Module, name: &str) -> f64 {
     let (_, constant) = module
         .constants
         .iter()
         .find(|(_, constant)| constant.name.as_deref() == Some(name))
         .unwrap_or_else(|| panic!("no constant {name}"));
     match module.global_expressions[constant.init] {
-        naga::Expression::Literal(naga::Literal::U32(value)) => value,
+        naga::Expression::Literal(naga::Literal::U32(value)) => f64::from(value),
+        naga::Expression::Literal(naga::Literal::F32(value)) => f64::from(value),
         ref other => panic!("{name} is {other:?}"),
     }
 }
@@ -172,13 +173,15 @@ fn constant(module: &naga::Module, name: &str) -> u32 {
 #[test]
 fn constants_are_the_same_in_rust_and_wgsl() {
     let module = parse(&measure_wgsl());
-    assert_eq!(constant(&module, "SHADOW_LIGHTS_MAX"), LIGHTS_MAX);
-    assert_eq!(constant(&module, "SHADOW_PCF_TAPS"), PCF_TAPS);
-    assert_eq!(constant(&module, "SHADOW_BLOCKER_TAPS"), BLOCKER_TAPS);
-    assert_eq!(constant(&module, "MEASURE_NOTHING"), f32::INFINITY.to_bits());
+    assert_eq!(constant(&module, "SHADOW_LIGHTS_MAX"), f64::from(LIGHTS_MAX));
+    assert_eq!(constant(&module, "SHADOW_PCF_TAPS"), f64::from(PCF_TAPS));
+    assert_eq!(constant(&module, "SHADOW_BLOCKER_TAPS"), f64::from(BLOCKER_TAPS));
+    assert_eq!(constant(&module, "MEASURE_NOTHING"), f64::from(f32::INFINITY.to_bits()));
+    let share = scumble::scumble_core::filter::SEARCH_SHARE as f32;
+    assert_eq!(constant(&module, "SHADOW_SEARCH_SHARE"), f64::from(share));
     assert_eq!(scumble::MEASURE_NOTHING, f32::INFINITY.to_bits());
     let kinds = ["SHADOW_FILTER_HARD", "SHADOW_FILTER_PCF", "SHADOW_FILTER_PCSS", "SHADOW_FILTER_UPLOADED"];
     for (name, (_, value)) in kinds.into_iter().zip(filters()) {
-        assert_eq!(f64::from(constant(&module, name)), value, "{name}");
+        assert_eq!(constant(&module, name), value, "{name}");
     }
 }

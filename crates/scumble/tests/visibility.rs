@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::casters::quad;
+use common::casters::{cuboid, quad};
 use common::rig::{Point, Rig, camera_above, fixed, ground_and, slab, sun_above};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use scumble::scumble_core::half_plane_under_disc;
@@ -145,6 +145,33 @@ fn the_penumbra_of_a_soft_shadow_is_as_wide_as_the_sun_and_the_height_make_it() 
         let mean = found.iter().map(|&v| f64::from(v)).sum::<f64>() / 64.0;
         let expected = half_plane_under_disc(f64::from(x) / radius);
         assert!((mean - expected).abs() < 0.05, "at {x}: {mean} for {expected}");
+    }
+}
+
+#[test]
+fn a_lamp_under_a_ceiling_casts_the_same_soft_shadow_as_one_in_the_open() {
+    let lamp = Light::Spot {
+        position: DVec3::new(0.0, 2.5, 0.0),
+        direction: DVec3::NEG_Y,
+        cone_half_angle: 0.7,
+        radius_world: 0.15,
+    };
+    // Similar triangles: the slab is 1.5 m below the lamp, the ground 2.5 m.
+    let radius = 0.15 * 1.0 / 1.5;
+    for ceiling in [None, Some(cuboid(Vec3::new(-5.0, 3.0, -5.0), Vec3::new(5.0, 3.1, 5.0)))] {
+        let casters = slab(1.0, 0.0).into_iter().chain(ceiling.into_iter().flatten()).collect();
+        let mut rig = Rig::new(settings(1024), fixed(Filter::Pcss, 1024), &ground_and(casters));
+        rig.camera = Camera { vertical_fov: 1.2, ..camera_above(DVec3::ZERO) };
+        rig.camera.eye.y = 2.9;
+        rig.draw(&[lamp]);
+        let places: Vec<f32> = (0..40u32).map(|i| i as f32 * 0.01 - 0.2).collect();
+        let points: Vec<Point> =
+            places.iter().flat_map(|&x| (0..64u32).map(move |k| on_ground(x, k as f32 * 0.02 - 0.6, k * 13))).collect();
+        for (&x, found) in places.iter().zip(rig.visibility(&points).chunks(64)) {
+            let mean = found.iter().map(|&v| f64::from(v)).sum::<f64>() / 64.0;
+            let expected = half_plane_under_disc(f64::from(x) / radius);
+            assert!((mean - expected).abs() < 0.06, "at {x}: {mean} for {expected}");
+        }
     }
 }
 
