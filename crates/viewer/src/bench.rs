@@ -15,7 +15,7 @@ use anyhow::{Result, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use crate::bench::comparison::compare;
+use crate::bench::comparison::{Screen, compare};
 use crate::bench::row::{Row, Timings, table};
 use crate::cli::{Bench, Size};
 use crate::device::Gpu;
@@ -113,6 +113,7 @@ fn bench_scene(options: &Bench, size_px: [u32; 2], stage: Stage) -> Result<Vec<R
 
     let mut rows = Vec::new();
     let surfaces = receivers.read_surfaces(&stage.gpu)?;
+    let screen = Screen::new(&stage.setup.scene.light, surfaces, size_px);
     let samples_per_side = if options.quick { 1 } else { SAMPLES_PER_SIDE };
     let truth = KernelTruth::new(&stage.setup);
     for &method in &options.methods {
@@ -120,8 +121,8 @@ fn bench_scene(options: &Bench, size_px: [u32; 2], stage: Stage) -> Result<Vec<R
         let Some((first, _)) = of_method().next() else { continue };
         let plan = first.plan()?;
         let filter = stage.setup.filter(method);
-        let bar = progress(&format!("{name}: truth of {}", method.name()), surfaces.len() as u64);
-        let true_visibility = truth.visibility(&filter, plan, &surfaces, size_px[0], &bar);
+        let bar = progress(&format!("{name}: truth of {}", method.name()), screen.surfaces.len() as u64);
+        let true_visibility = truth.visibility(&filter, plan, &screen.surfaces, size_px[0], &bar);
         bar.finish_and_clear();
 
         let directory = options.out.join(directory_name(&name)).join(method.name());
@@ -131,9 +132,10 @@ fn bench_scene(options: &Bench, size_px: [u32; 2], stage: Stage) -> Result<Vec<R
         for (variant, timing) in of_method() {
             let visibility = variant.read_visibility(&stage)?;
             let radii = variant.read_radii(&stage, &receivers)?;
-            let comparison = compare(&stage, variant, &surfaces, &visibility, &true_visibility, &radii)?;
+            let comparison = compare(&stage, variant, &screen, &visibility, &true_visibility, &radii)?;
             let label = label(variant.size, &options.sizes);
-            let files = pictures.variant(variant, &label, &visibility, &true_visibility, &truth_picture)?;
+            let files =
+                pictures.variant(variant, &label, &visibility, &true_visibility, &screen.lit_facing, &truth_picture)?;
             rows.push(Row::new(&stage, variant, size_px, timing, comparison, files, &options.out)?);
         }
     }

@@ -48,7 +48,7 @@ impl Variant {
         };
         // A still picture has nothing to flicker, so sizes may shrink as soon and as far as the demand allows.
         let settings = Settings {
-            relation: stage.setup.relation.clone(),
+            relation: stage.setup.relation,
             cap,
             shrink_after_frames: 1,
             shrink_rungs: RUNGS_ALL,
@@ -64,8 +64,13 @@ impl Variant {
         Ok(Self { method, size, shadows, casters, evaluation, visibility, bounds, plan: None })
     }
 
-    /// Renders frames until the size rests.
+    /// Renders frames until the size rests. A fixed size rests at once; what the screen asks of it is measured, so that
+    /// its plan says what it achieves.
     pub fn settle(&mut self, stage: &Stage, gbuffer: &GBuffer, timer: &mut Timer) -> Result<()> {
+        if !self.measures() {
+            self.frame(stage, gbuffer, timer)?;
+            self.demand_radius_world(stage, gbuffer)?;
+        }
         let mut sizes = Vec::new();
         let mut unchanged = 0;
         for _ in 0..SETTLING_FRAMES_MAX {
@@ -155,6 +160,11 @@ impl Variant {
         self.evaluation.draw(&mut encoder, gbuffer, &self.shadows, &visibility);
         stage.gpu.finish(encoder)?;
         Ok(visibility)
+    }
+
+    /// What sizes are chosen by.
+    pub fn settings(&self) -> &Settings {
+        self.shadows.settings()
     }
 
     /// Texels per side of the texture that the map is a part of.

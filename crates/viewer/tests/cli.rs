@@ -4,8 +4,15 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+/// The viewer, without Mesa's layer that looks for a Wayland display and complains on standard error where there is none.
+fn program() -> Command {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_scumble-viewer"));
+    program.env("NODEVICE_SELECT", "1");
+    program
+}
+
 fn viewer(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_scumble-viewer")).args(arguments).output().unwrap()
+    program().args(arguments).output().expect("the program starts")
 }
 
 /// Standard error of a run that must fail with status 1 and exactly one line.
@@ -14,14 +21,14 @@ fn complaint(arguments: &[&str]) -> String {
 }
 
 fn one_line(output: &Output) -> String {
-    let text = String::from_utf8(output.stderr.clone()).unwrap();
+    let text = String::from_utf8(output.stderr.clone()).expect("text");
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert_eq!(text.trim_end().lines().count(), 1, "{text}");
     text
 }
 
 fn path_text(path: &Path) -> &str {
-    path.to_str().unwrap()
+    path.to_str().expect("a path of letters")
 }
 
 #[test]
@@ -96,7 +103,7 @@ fn a_file_of_another_kind_is_never_replaced() {
 fn a_machine_without_a_driver_is_told_what_to_install() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("x.png");
-    let output = Command::new(env!("CARGO_BIN_EXE_scumble-viewer"))
+    let output = program()
         .args(["shot", "--scene", "contact", "--out", path_text(&out)])
         .env("WGPU_BACKEND", "vulkan")
         .env("VK_DRIVER_FILES", directory.path().join("none.json"))
@@ -126,4 +133,61 @@ fn a_shot_writes_a_picture_and_a_record_whose_texels_are_those_of_its_viewports(
             assert_eq!(record["texels"], 128 * 64);
         }
     }
+}
+
+#[test]
+fn a_bench_writes_a_table_a_record_and_the_pictures_that_it_names() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("results");
+    let arguments = [
+        "bench",
+        "--scenes",
+        "contact",
+        "--methods",
+        "pcf",
+        "--sizes",
+        "1024,adaptive",
+        "--frames",
+        "3",
+        "--width",
+        "640",
+        "--height",
+        "360",
+        "--quick",
+        "--out",
+        path_text(&out),
+    ];
+    let output = viewer(&arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+
+    let table = fs::read_to_string(out.join("bench.csv")).unwrap();
+    assert_eq!(table.lines().count(), 3, "{table}");
+    let record: serde_json::Value = serde_json::from_slice(&fs::read(out.join("bench.json")).unwrap()).unwrap();
+    let rows = record["rows"].as_array().unwrap();
+    for row in rows {
+        for picture in ["picture", "error_map", "truth"] {
+            let path = out.join(row["pictures"][picture].as_str().unwrap());
+            assert_eq!(image::open(&path).unwrap().width(), 320, "{}", path.display());
+        }
+        let error = &row["comparison"]["penumbra"];
+        assert!(error["pixels"].as_u64().unwrap() > 500, "there is a penumbra");
+        assert!(error["rms"].as_f64().unwrap() < 0.08, "{row}");
+    }
+    assert!(rows[1]["texels"].as_u64().unwrap() < 1024 * 1024 / 2, "the adaptive map is the smaller one");
+    assert_eq!(rows[1]["comparison"]["violation_share"], 0.0);
+}
+
+#[test]
+fn a_truth_writes_as_many_numbers_as_its_record_says() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("truth.png");
+    let arguments = ["truth", "--scene", "contact", "--width", "64", "--height", "36", "--out", path_text(&out)];
+    let output = viewer(&arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let record: serde_json::Value = serde_json::from_slice(&fs::read(out.with_extension("json")).unwrap()).unwrap();
+    let raw = fs::read(out.with_extension("f32")).unwrap();
+    assert_eq!(raw.len() as u64, 4 * record["raw_width"].as_u64().unwrap() * record["raw_height"].as_u64().unwrap());
+    let values = raw.chunks_exact(4).map(|bytes| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
+    assert!(values.clone().all(|value| (0.0..=1.0).contains(&value)));
+    assert!(values.clone().any(|value| value < 0.5), "there is a shadow");
 }

@@ -2,18 +2,39 @@
 //!
 //! *Lit-facing* pixels turn their geometric normal towards the light and lie in its cone: the others are dark whatever the
 //! map says. *Penumbra* pixels are those of them whose true visibility is neither 0 nor 1: there the texels show.
-//! The *violation share* is the share of penumbra pixels with a filter whose radius is less than c texels of the map.
+//! The *violation share* is the share of penumbra pixels whose filter is narrower than c texels of the map where a texel is
+//! also larger than the pixel: there the relation says that texels are seen.
 
 use anyhow::Result;
 use scumble::Light;
+use scumble::scumble_core::pixel_footprint_world;
 use serde::Serialize;
 
+use crate::cli::Method;
 use crate::gbuffer::Surface;
 use crate::stage::Stage;
 use crate::variant::Variant;
 
 /// Rounding that does not make a radius of exactly c texels a violation.
 const VIOLATION_SLACK: f64 = 1e-4;
+
+/// What the pixels of a picture show, rows from top to bottom.
+pub struct Screen {
+    /// Pixels across and down.
+    pub size_px: [u32; 2],
+    /// What is seen; `None` is the sky.
+    pub surfaces: Vec<Option<Surface>>,
+    /// Whether it faces the light.
+    pub lit_facing: Vec<bool>,
+}
+
+impl Screen {
+    /// Of the surfaces of a G-buffer.
+    pub fn new(light: &Light, surfaces: Vec<Option<Surface>>, size_px: [u32; 2]) -> Self {
+        let lit_facing = surfaces.iter().map(|surface| surface.is_some_and(|surface| faces(light, &surface))).collect();
+        Self { size_px, surfaces, lit_facing }
+    }
+}
 
 /// Errors of a variant.
 #[derive(Clone, Debug, Serialize)]
@@ -22,7 +43,7 @@ pub struct Comparison {
     pub lit_facing: MaskedError,
     /// Over those with partial visibility.
     pub penumbra: MaskedError,
-    /// Share of the penumbra whose filter is narrower than the relation asks for; null without a soft filter or a map.
+    /// Share of the penumbra in which texels are seen; null without a soft filter or a map.
     pub violation_share: Option<f64>,
 }
 
@@ -45,20 +66,17 @@ pub struct MaskedError {
 pub fn compare(
     stage: &Stage,
     variant: &Variant,
-    surfaces: &[Option<Surface>],
+    screen: &Screen,
     visibility: &[f32],
     truth: &[f32],
     radii: &[f32],
 ) -> Result<Comparison> {
-    let light = &stage.setup.scene.light;
-    let lit_facing: Vec<bool> =
-        surfaces.iter().map(|surface| surface.is_some_and(|surface| faces(light, &surface))).collect();
     let penumbra: Vec<bool> =
-        lit_facing.iter().zip(truth).map(|(&facing, &truth)| facing && truth > 0.0 && truth < 1.0).collect();
+        screen.lit_facing.iter().zip(truth).map(|(&facing, &truth)| facing && truth > 0.0 && truth < 1.0).collect();
     Ok(Comparison {
-        lit_facing: masked(visibility, truth, &lit_facing),
+        lit_facing: masked(visibility, truth, &screen.lit_facing),
         penumbra: masked(visibility, truth, &penumbra),
-        violation_share: violation_share(stage, variant, &penumbra, radii)?,
+        violation_share: violation_share(stage, variant, screen, &penumbra, radii)?,
     })
 }
 
@@ -91,14 +109,27 @@ fn faces(light: &Light, surface: &Surface) -> bool {
     is_in_cone && to_light.dot(surface.normal.as_dvec3()) > 0.0
 }
 
-fn violation_share(stage: &Stage, variant: &Variant, penumbra: &[bool], radii: &[f32]) -> Result<Option<f64>> {
+/// Share of the filtered penumbra whose demand the map does not meet.
+fn violation_share(
+    stage: &Stage,
+    variant: &Variant,
+    screen: &Screen,
+    penumbra: &[bool],
+    radii: &[f32],
+) -> Result<Option<f64>> {
     let Some(view) = variant.plan()?.views().first() else { return Ok(None) };
-    let allowed = stage.setup.relation.radius_from_texel(view.texel_world().max_element()) * (1.0 - VIOLATION_SLACK);
-    let filtered = penumbra.iter().zip(radii).filter(|&(&inside, &radius)| inside && radius > 0.0);
+    let settings = variant.settings();
+    let camera = &stage.setup.scene.camera;
+    let needed = settings.relation.radius_from_texel(view.texel_world().max_element()) * (1.0 - VIOLATION_SLACK);
+    // Only PCSS widens what is narrower than its least radius.
+    let radius_least = if variant.method == Method::Pcss { view.radius_min_world } else { 0.0 };
     let (mut count, mut violations) = (0u64, 0u64);
-    for (_, &radius) in filtered {
+    for ((surface, &radius), _) in screen.surfaces.iter().zip(radii).zip(penumbra).filter(|(_, inside)| **inside) {
+        let Some(surface) = surface.filter(|_| radius > 0.0) else { continue };
+        let footprint = pixel_footprint_world(camera, &view.fit, surface.position.as_dvec3(), screen.size_px[1]);
+        let demand = settings.demand_radius_world(f64::from(radius).max(radius_least), footprint);
         count += 1;
-        violations += u64::from(f64::from(radius).max(view.radius_min_world) < allowed);
+        violations += u64::from(demand < needed);
     }
     Ok((count > 0).then(|| violations as f64 / count as f64))
 }

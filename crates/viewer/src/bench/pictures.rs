@@ -57,6 +57,7 @@ impl<'a> Pictures<'a> {
         label: &str,
         visibility: &[f32],
         truth: &[f32],
+        lit_facing: &[bool],
         truth_picture: &Path,
     ) -> Result<Files> {
         let picture = claim(&self.directory.join(format!("{label}.png")), Kind::Png)?;
@@ -64,7 +65,7 @@ impl<'a> Pictures<'a> {
         let texture = variant.evaluate(self.stage, &self.samples)?;
         write_png(&picture, &self.stage.picture(&self.samples, &texture, self.samples_per_side)?)?;
         let [width, height] = self.size_px;
-        write_png(&error, &error_map(visibility, truth, width, height)?)?;
+        write_png(&error, &error_map(visibility, truth, lit_facing, width, height)?)?;
         Ok(vec![("picture", picture), ("error_map", error), ("truth", truth_picture.to_owned())])
     }
 }
