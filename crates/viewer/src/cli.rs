@@ -115,10 +115,10 @@ pub struct View {
 #[derive(Clone, Debug, Args)]
 pub struct Conditions {
     /// Size of the light: angular radius in degrees of a sun, radius in metres of a lamp [default: the scene's]
-    #[arg(long, value_name = "W", value_parser = positive)]
+    #[arg(long, value_name = "W", value_parser = positive, allow_negative_numbers = true)]
     pub light_size: Option<f64>,
     /// Filter radius of pcf in metres at the shadow [default: the scene's]
-    #[arg(long, value_name = "R", value_parser = positive)]
+    #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     pub radius: Option<f64>,
     /// relation.json of a study: texels per filter radius [default: the published 3.47]
     #[arg(long, value_name = "FILE")]

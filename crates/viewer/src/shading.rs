@@ -157,3 +157,41 @@ impl ShadingPass {
         RgbImage::from_raw(width, height, rgb).context("the picture has another size than its pixels")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::mem::{offset_of, size_of};
+
+    use super::*;
+
+    #[test]
+    fn the_uniform_has_the_layout_of_its_shader() {
+        let source = concat!(
+            include_str!("../shader/camera.wgsl"),
+            include_str!("../shader/gbuffer_read.wgsl"),
+            include_str!("../shader/lighting.wgsl")
+        );
+        let module = naga::front::wgsl::parse_str(source).unwrap();
+        let (_, lighting) = module.types.iter().find(|(_, kind)| kind.name.as_deref() == Some("Lighting")).unwrap();
+        let naga::TypeInner::Struct { members, span } = &lighting.inner else { panic!("Lighting is a struct") };
+        let offset_of_member = |name: &str| {
+            members.iter().find(|member| member.name.as_deref() == Some(name)).map(|member| member.offset as usize)
+        };
+        macro_rules! same_offset {
+            ($($field:ident),*) => {
+                $(assert_eq!(offset_of_member(stringify!($field)), Some(offset_of!(LightingUniform, $field)));)*
+            };
+        }
+        same_offset!(
+            light_color,
+            obscurance_radius_world,
+            light_position,
+            focal_length_px,
+            light_direction,
+            cone_cosine
+        );
+        same_offset!(zenith_color, reference_distance_squared, horizon_color, samples_per_side, ground_color, exposure);
+        same_offset!(up, below_color);
+        assert_eq!(*span as usize, size_of::<LightingUniform>());
+    }
+}

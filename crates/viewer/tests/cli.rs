@@ -46,6 +46,14 @@ fn a_bad_size_is_refused_with_what_is_allowed() {
 }
 
 #[test]
+fn a_radius_that_is_none_is_refused() {
+    for radius in ["-1", "0", "NaN", "inf", "wide"] {
+        let line = complaint(&["shot", "--scene", "contact", "--radius", radius, "--out", "x.png"]);
+        assert!(line.contains(radius) && line.contains("above 0"), "{line}");
+    }
+}
+
+#[test]
 fn a_bad_method_is_refused_with_the_methods_there_are() {
     let line = complaint(&["shot", "--scene", "contact", "--method", "magic", "--out", "x.png"]);
     assert!(line.contains("magic") && line.contains("pcss"), "{line}");
@@ -67,6 +75,7 @@ fn a_missing_or_truncated_scene_file_is_named() {
     let missing = directory.path().join("missing.obj");
     let line = complaint(&["shot", "--scene", path_text(&missing), "--out", path_text(&out)]);
     assert!(line.contains("missing.obj"), "{line}");
+    assert_eq!(line.matches("os error").count(), 1, "{line}");
 
     let truncated = directory.path().join("cut.glb");
     fs::write(&truncated, b"glTF\x02\0\0\0\xff\xff\0\0").unwrap();
