@@ -78,11 +78,11 @@ fn disc_point(area_share: f64, turn: f64) -> DVec2 {
 
 fn radiance(scene: &Scene, rays: &Rays, at_px: DVec2, on_disc: DVec2) -> Vec3 {
     let direction = view_ray(&scene.camera, at_px);
-    let Some(hit) = rays.first_hit(scene.camera.eye, direction, f64::INFINITY) else {
+    let Some(hit) = rays.first_hit(scene.camera.eye, direction) else {
         return SKY;
     };
     let from = hit.position + hit.geometric_normal * rays.epsilon();
-    let (towards_light, irradiance) = light_sample(scene, from, on_disc);
+    let (towards_light, irradiance) = light_sample(scene, rays, from, on_disc);
     let cosine = hit.shading_normal.dot(towards_light.normalize()).max(0.0) as f32;
     let lit = cosine > 0.0 && irradiance > 0.0 && rays.free(from, from + towards_light);
     let key = if lit { cosine * irradiance } else { 0.0 };
@@ -91,17 +91,15 @@ fn radiance(scene: &Scene, rays: &Rays, at_px: DVec2, on_disc: DVec2) -> Vec3 {
 }
 
 /// The segment to a point of the light, and the irradiance it would give at normal incidence.
-fn light_sample(scene: &Scene, from: DVec3, on_disc: DVec2) -> (DVec3, f32) {
+fn light_sample(scene: &Scene, rays: &Rays, from: DVec3, on_disc: DVec2) -> (DVec3, f32) {
     match scene.light {
         Light::Directional {
             direction,
             half_angle,
         } => {
             let (u, v) = direction.any_orthonormal_pair();
-            let reach = scene.bounds();
-            let far = (reach.max - reach.min).length();
             let offset = (u * on_disc.x + v * on_disc.y) * half_angle.tan();
-            ((-direction + offset) * far, 1.0)
+            ((-direction + offset) * rays.diagonal(), 1.0)
         }
         Light::Spot {
             position,

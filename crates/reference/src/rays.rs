@@ -5,8 +5,8 @@
 //! * between box and ray: every box is padded by `PADDING` of the scene's extent, more than `f32` loses on the way;
 //! * between two triangles: barycentric coordinates may be `EDGE_TOLERANCE` below zero, so that neighbours overlap.
 //!
-//! Coordinates are relative to the middle of the scene, so that a scene at 1e6 m has the accuracy of one at the origin
-//! (as far as its own `f32` positions go). Meshes may be open, doubled, or wound either way: both sides of a triangle count.
+//! Inside, coordinates are relative to the middle of the scene and its diagonal is `LOCAL_EXTENT`, so that a scene of any size
+//! at any place has the same accuracy (as far as its own `f32` positions go). Meshes may be open, doubled, or wound either way: both sides of a triangle count.
 //!
 //! Triangles by Moeller and Trumbore, *Fast, minimum storage ray/triangle intersection* (1997).
 
@@ -21,6 +21,9 @@ use std::time::Duration;
 const PADDING: f64 = 1e-6;
 /// Barycentric coordinates down to this count as inside: far above `f64` rounding, far below a `f32` position's.
 const EDGE_TOLERANCE: f64 = 1e-10;
+/// The scene's diagonal in local units. The tree ignores boxes that end within 1e-4 units of a ray's origin, whatever the
+/// ray's direction is: 1e-7 of the diagonal, a hundredth of [`Rays::epsilon`].
+const LOCAL_EXTENT: f64 = 1000.0;
 /// See [`Rays::epsilon`].
 const EPSILON: f64 = 1e-5;
 
@@ -30,10 +33,12 @@ pub struct Rays {
     /// In the hierarchy's order.
     triangles: Vec<Triangle>,
     middle: DVec3,
-    extent: f64,
+    /// Metres.
+    diagonal: f64,
+    local_per_metre: f64,
 }
 
-/// Relative to the middle of the scene.
+/// In local coordinates.
 struct Triangle {
     corner: DVec3,
     edges: [DVec3; 2],
@@ -44,7 +49,7 @@ struct Triangle {
 /// The nearest point of the scene on a ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Along the ray, in lengths of its direction.
+    /// From the ray's origin, in metres.
     pub distance: f64,
     /// In world space.
     pub position: DVec3,
@@ -61,11 +66,12 @@ impl Rays {
     pub fn new(scene: &Scene) -> Self {
         let bounds = scene.bounds();
         let middle = (bounds.min + bounds.max) / 2.0;
-        let extent = (bounds.max - bounds.min).length();
-        let triangles = triangles_of(scene, middle);
+        let diagonal = (bounds.max - bounds.min).length();
+        let local_per_metre = if diagonal > 0.0 { LOCAL_EXTENT / diagonal } else { 1.0 };
+        let triangles = triangles_of(scene, middle, local_per_metre);
         let boxes: Vec<Aabb> = triangles
             .iter()
-            .map(|triangle| triangle.padded_box(PADDING * extent))
+            .map(|triangle| triangle.padded_box(PADDING * LOCAL_EXTENT))
             .collect();
 
         // An empty scene has an empty tree, which the builder does not make.
@@ -90,7 +96,8 @@ impl Rays {
             hierarchy,
             triangles,
             middle,
-            extent,
+            diagonal,
+            local_per_metre,
         }
     }
 
@@ -99,61 +106,76 @@ impl Rays {
     /// Shadow rays end this far before the receiver. It covers the `f32` rounding of receivers that come from a GPU
     /// (1e-7 of their coordinates, times the slope of a tap on a receiver seen at a grazing angle).
     pub fn epsilon(&self) -> f64 {
-        EPSILON * self.extent
+        EPSILON * self.diagonal
     }
 
-    /// The nearest hit with `0 < distance < length`, both in lengths of `direction`.
-    pub fn first_hit(&self, origin: DVec3, direction: DVec3, length: f64) -> Option<Hit> {
-        let origin = origin - self.middle;
-        let (mut nearest, mut found) = (length, None);
+    /// Length of the diagonal of the scene's box, in metres.
+    pub fn diagonal(&self) -> f64 {
+        self.diagonal
+    }
+
+    /// The nearest hit on the ray, at any distance above 0. `direction` may have any length above 0.
+    pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        let origin_local = self.local(origin);
+        let direction = direction.normalize();
+        let (mut nearest, mut found) = (f64::INFINITY, None);
         self.hierarchy.ray_traverse(
-            narrow(origin, direction, length),
+            narrow(origin_local, direction, f64::INFINITY),
             &mut RayHit::none(),
-            |ray, index| match self.triangles[index].meet(origin, direction) {
+            |_, index| match self.triangles[index].meet(origin_local, direction) {
                 Some(meeting) if meeting.distance > 0.0 && meeting.distance < nearest => {
                     nearest = meeting.distance;
                     found = Some((index, meeting));
-                    // The tree may drop boxes beyond this: never less than the exact distance, never more than before.
-                    ((nearest * (1.0 + PADDING)) as f32).min(ray.tmax.next_down())
+                    // The tree drops the boxes beyond this distance.
+                    moved_out(nearest)
                 }
                 _ => f32::INFINITY,
             },
         );
-        found.map(|(index, meeting)| {
-            self.triangles[index].hit(&meeting, origin, direction, self.middle)
-        })
+        let (index, meeting) = found?;
+        let distance = meeting.distance / self.local_per_metre;
+        Some(self.triangles[index].hit(&meeting, direction, distance, origin))
     }
 
     /// Whether nothing lies on the open segment between two points.
     pub fn free(&self, from: DVec3, to: DVec3) -> bool {
-        let origin = from - self.middle;
-        let direction = to - from;
+        let origin = self.local(from);
+        let segment = self.local(to) - origin;
+        let length = segment.length();
+        if length == 0.0 {
+            return true;
+        }
+        let direction = segment / length;
         self.hierarchy
-            .ray_traverse_miss(narrow(origin, direction, 1.0), |_, index| {
+            .ray_traverse_miss(narrow(origin, direction, length), |_, index| {
                 match self.triangles[index].meet(origin, direction) {
-                    Some(meeting) if meeting.distance > 0.0 && meeting.distance < 1.0 => 0.0,
+                    Some(meeting) if meeting.distance > 0.0 && meeting.distance < length => 0.0,
                     _ => f32::INFINITY,
                 }
             })
     }
+
+    fn local(&self, world: DVec3) -> DVec3 {
+        (world - self.middle) * self.local_per_metre
+    }
 }
 
-/// The tree's ray. Its end is moved out by one part in a million, so that no box is dropped that `f64` would enter.
+/// The tree's ray.
 fn narrow(origin: DVec3, direction: DVec3, length: f64) -> Ray {
-    let end = ((length * (1.0 + PADDING)) as f32).min(f32::MAX);
-    Ray::new(
-        Vec3A::from(origin.as_vec3()),
-        Vec3A::from(direction.as_vec3()),
-        0.0,
-        end,
-    )
+    let [origin, direction] = [origin, direction].map(|v| Vec3A::from(v.as_vec3()));
+    Ray::new(origin, direction, 0.0, moved_out(length))
 }
 
-fn triangles_of(scene: &Scene, middle: DVec3) -> Vec<Triangle> {
+/// A distance for the tree: larger by one part in a million, so that no box is dropped that the exact distance enters.
+fn moved_out(distance: f64) -> f32 {
+    ((distance * (1.0 + PADDING)) as f32).min(f32::MAX)
+}
+
+fn triangles_of(scene: &Scene, middle: DVec3, local_per_metre: f64) -> Vec<Triangle> {
     let mut triangles = Vec::with_capacity(scene.triangle_count());
     for (mesh_index, mesh) in scene.meshes.iter().enumerate() {
         for triangle in &mesh.triangles {
-            let [a, b, c] = triangle.map(|i| mesh.positions[i as usize].as_dvec3() - middle);
+            let [a, b, c] = triangle.map(|i| (mesh.positions[i as usize].as_dvec3() - middle) * local_per_metre);
             triangles.push(Triangle {
                 corner: a,
                 edges: [b - a, c - a],
@@ -204,27 +226,22 @@ impl Triangle {
         })
     }
 
-    fn hit(&self, meeting: &Meeting, origin: DVec3, direction: DVec3, middle: DVec3) -> Hit {
-        let towards_origin = |normal: DVec3| {
-            if normal.dot(direction) > 0.0 {
-                -normal
-            } else {
-                normal
-            }
-        };
+    fn hit(&self, meeting: &Meeting, direction: DVec3, distance: f64, origin: DVec3) -> Hit {
+        let towards_origin = |normal: DVec3| if normal.dot(direction) > 0.0 { -normal } else { normal };
         let geometric_normal = towards_origin(self.edges[0].cross(self.edges[1]).normalize());
 
         let [u, v] = meeting.barycentric;
         let [n0, n1, n2] = self.shading_normals;
-        let interpolated = (n0 * (1.0 - u - v) + n1 * u + n2 * v).normalize_or(geometric_normal);
+        let interpolated =
+            (n0 * (1.0 - u - v) + n1 * u + n2 * v).normalize_or(geometric_normal);
         let shading_normal = if interpolated.dot(geometric_normal) < 0.0 {
             -interpolated
         } else {
             interpolated
         };
         Hit {
-            distance: meeting.distance,
-            position: origin + direction * meeting.distance + middle,
+            distance,
+            position: origin + direction * distance,
             geometric_normal,
             shading_normal,
             mesh: self.mesh as usize,
