@@ -123,7 +123,8 @@ pub struct Conditions {
     /// relation.json of a study: texels per filter radius [default: the published 3.47]
     #[arg(long, value_name = "FILE")]
     pub relation: Option<PathBuf>,
-    /// Most texels per side of an adaptive map: where the screen asks for more, contact shadows are widened instead
+    /// Most texels per side of an adaptive map. Where the screen asks for more, pcss widens its narrowest shadows to what
+    /// the map hides; pcf keeps its radius and shows texels; the records say `capped`
     #[arg(long, default_value_t = 1024, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=16_384))]
     pub cap: u32,
     /// Pixels across

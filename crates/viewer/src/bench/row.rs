@@ -190,6 +190,7 @@ impl fmt::Display for Row {
             write!(formatter, "  {:>7.1} ms", total.median)?;
         }
         let penumbra = &self.comparison.penumbra;
-        write!(formatter, "  penumbra RMS {:.4} p99 {:.3} bias {:+.4}", penumbra.rms, penumbra.p99, penumbra.bias)
+        write!(formatter, "  penumbra RMS {:.4} p99 {:.3} bias {:+.4}", penumbra.rms, penumbra.p99, penumbra.bias)?;
+        formatter.write_str(if self.maps.iter().any(|map| map.capped) { "  capped" } else { "" })
     }
 }
