@@ -20,10 +20,7 @@ fn main() -> anyhow::Result<()> {
     let mut arguments = std::env::args().skip(1);
     let usage = "SCENE OUT.png [SAMPLES]";
     let (name, out) = arguments.next().zip(arguments.next()).context(usage)?;
-    let samples: u32 = arguments
-        .next()
-        .map_or(Ok(16), |n| n.parse())
-        .context(usage)?;
+    let samples: u32 = arguments.next().map_or(Ok(16), |n| n.parse()).context(usage)?;
 
     let started = std::time::Instant::now();
     let scene = scumble_scenes::open(&name, "assets".as_ref())?;
@@ -37,18 +34,13 @@ fn main() -> anyhow::Result<()> {
     );
 
     let mut picture = image::RgbImage::new(WIDTH, HEIGHT);
-    picture
-        .as_mut()
-        .par_chunks_mut(3 * WIDTH as usize)
-        .enumerate()
-        .for_each(|(y, row)| {
-            for x in 0..WIDTH {
-                let linear = shade(&scene, &rays, DVec2::new(f64::from(x), y as f64), samples);
-                let code = linear.clamp(Vec3::ZERO, Vec3::ONE).powf(1.0 / 2.2) * 255.0;
-                row[3 * x as usize..][..3]
-                    .copy_from_slice(&code.to_array().map(|c| c.round() as u8));
-            }
-        });
+    picture.as_mut().par_chunks_mut(3 * WIDTH as usize).enumerate().for_each(|(y, row)| {
+        for x in 0..WIDTH {
+            let linear = shade(&scene, &rays, DVec2::new(f64::from(x), y as f64), samples);
+            let code = linear.clamp(Vec3::ZERO, Vec3::ONE).powf(1.0 / 2.2) * 255.0;
+            row[3 * x as usize..][..3].copy_from_slice(&code.to_array().map(|c| c.round() as u8));
+        }
+    });
     picture.save(&out)?;
     println!("{out} after {:.2} s", started.elapsed().as_secs_f64());
     Ok(())
@@ -62,10 +54,7 @@ fn shade(scene: &Scene, rays: &Rays, corner_px: DVec2, samples: u32) -> Vec3 {
             let shift = (corner_px.x * 0.754_877_67 + corner_px.y * 0.569_840_29).fract();
             let step = f64::from(i) + shift * 64.0;
             let in_pixel = DVec2::new((step * 0.754_877_67).fract(), (step * 0.569_840_29).fract());
-            let on_disc = disc_point(
-                (f64::from(i) + 0.5) / f64::from(samples),
-                step * 0.618_033_99 + shift,
-            );
+            let on_disc = disc_point((f64::from(i) + 0.5) / f64::from(samples), step * 0.618_033_99 + shift);
             radiance(scene, rays, corner_px + in_pixel, on_disc)
         })
         .sum::<Vec3>()
@@ -93,20 +82,12 @@ fn radiance(scene: &Scene, rays: &Rays, at_px: DVec2, on_disc: DVec2) -> Vec3 {
 /// The segment to a point of the light, and the irradiance it would give at normal incidence.
 fn light_sample(scene: &Scene, rays: &Rays, from: DVec3, on_disc: DVec2) -> (DVec3, f32) {
     match scene.light {
-        Light::Directional {
-            direction,
-            half_angle,
-        } => {
+        Light::Directional { direction, half_angle } => {
             let (u, v) = direction.any_orthonormal_pair();
             let offset = (u * on_disc.x + v * on_disc.y) * half_angle.tan();
             ((-direction + offset) * rays.diagonal(), 1.0)
         }
-        Light::Spot {
-            position,
-            direction,
-            cone_half_angle,
-            radius_world,
-        } => {
+        Light::Spot { position, direction, cone_half_angle, radius_world } => {
             let (u, v) = direction.any_orthonormal_pair();
             let towards = position + (u * on_disc.x + v * on_disc.y) * radius_world - from;
             let cosine = -towards.normalize().dot(direction);
@@ -120,9 +101,6 @@ fn light_sample(scene: &Scene, rays: &Rays, from: DVec3, on_disc: DVec2) -> (DVe
 
 fn view_ray(camera: &Camera, at_px: DVec2) -> DVec3 {
     let world_from_clip = camera.clip_from_world().inverse();
-    let ndc = DVec2::new(
-        2.0 * at_px.x / f64::from(WIDTH) - 1.0,
-        1.0 - 2.0 * at_px.y / f64::from(HEIGHT),
-    );
+    let ndc = DVec2::new(2.0 * at_px.x / f64::from(WIDTH) - 1.0, 1.0 - 2.0 * at_px.y / f64::from(HEIGHT));
     (world_from_clip.project_point3(ndc.extend(0.5)) - camera.eye).normalize()
 }

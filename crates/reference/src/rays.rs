@@ -69,36 +69,20 @@ impl Rays {
         let diagonal = (bounds.max - bounds.min).length();
         let local_per_metre = if diagonal > 0.0 { LOCAL_EXTENT / diagonal } else { 1.0 };
         let triangles = triangles_of(scene, middle, local_per_metre);
-        let boxes: Vec<Aabb> = triangles
-            .iter()
-            .map(|triangle| triangle.padded_box(PADDING * LOCAL_EXTENT))
-            .collect();
+        let boxes: Vec<Aabb> = triangles.iter().map(|triangle| triangle.padded_box(PADDING * LOCAL_EXTENT)).collect();
 
         // An empty scene has an empty tree, which the builder does not make.
         let hierarchy = if boxes.is_empty() {
             CwBvh::default()
         } else {
-            build_cwbvh(
-                &boxes,
-                BvhBuildParams::medium_build(),
-                &mut Duration::default(),
-            )
+            build_cwbvh(&boxes, BvhBuildParams::medium_build(), &mut Duration::default())
         };
 
         // Leaves that lie together in memory are met together.
         let mut unordered: Vec<Option<Triangle>> = triangles.into_iter().map(Some).collect();
-        let triangles = hierarchy
-            .primitive_indices
-            .iter()
-            .filter_map(|&index| unordered[index as usize].take())
-            .collect();
-        Self {
-            hierarchy,
-            triangles,
-            middle,
-            diagonal,
-            local_per_metre,
-        }
+        let triangles =
+            hierarchy.primitive_indices.iter().filter_map(|&index| unordered[index as usize].take()).collect();
+        Self { hierarchy, triangles, middle, diagonal, local_per_metre }
     }
 
     /// The length below which two surfaces are one, in metres: 1e-5 of the scene's diagonal.
@@ -119,10 +103,8 @@ impl Rays {
         let origin_local = self.local(origin);
         let direction = direction.normalize();
         let (mut nearest, mut found) = (f64::INFINITY, None);
-        self.hierarchy.ray_traverse(
-            narrow(origin_local, direction, f64::INFINITY),
-            &mut RayHit::none(),
-            |_, index| match self.triangles[index].meet(origin_local, direction) {
+        self.hierarchy.ray_traverse(narrow(origin_local, direction, f64::INFINITY), &mut RayHit::none(), |_, index| {
+            match self.triangles[index].meet(origin_local, direction) {
                 Some(meeting) if meeting.distance > 0.0 && meeting.distance < nearest => {
                     nearest = meeting.distance;
                     found = Some((index, meeting));
@@ -130,8 +112,8 @@ impl Rays {
                     moved_out(nearest)
                 }
                 _ => f32::INFINITY,
-            },
-        );
+            }
+        });
         let (index, meeting) = found?;
         let distance = meeting.distance / self.local_per_metre;
         Some(self.triangles[index].hit(&meeting, direction, distance, origin))
@@ -146,13 +128,12 @@ impl Rays {
             return true;
         }
         let direction = segment / length;
-        self.hierarchy
-            .ray_traverse_miss(narrow(origin, direction, length), |_, index| {
-                match self.triangles[index].meet(origin, direction) {
-                    Some(meeting) if meeting.distance > 0.0 && meeting.distance < length => 0.0,
-                    _ => f32::INFINITY,
-                }
-            })
+        self.hierarchy.ray_traverse_miss(narrow(origin, direction, length), |_, index| {
+            match self.triangles[index].meet(origin, direction) {
+                Some(meeting) if meeting.distance > 0.0 && meeting.distance < length => 0.0,
+                _ => f32::INFINITY,
+            }
+        })
     }
 
     fn local(&self, world: DVec3) -> DVec3 {
@@ -196,11 +177,7 @@ struct Meeting {
 
 impl Triangle {
     fn padded_box(&self, padding: f64) -> Aabb {
-        let corners = [
-            self.corner,
-            self.corner + self.edges[0],
-            self.corner + self.edges[1],
-        ];
+        let corners = [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]];
         let min = corners[0].min(corners[1]).min(corners[2]) - padding;
         let max = corners[0].max(corners[1]).max(corners[2]) + padding;
         Aabb::new(Vec3A::from(min.as_vec3()), Vec3A::from(max.as_vec3()))
@@ -220,10 +197,7 @@ impl Triangle {
         let q = s.cross(e0);
         let v = direction.dot(q) * inverse;
         let inside = u >= -EDGE_TOLERANCE && v >= -EDGE_TOLERANCE && u + v <= 1.0 + EDGE_TOLERANCE;
-        inside.then(|| Meeting {
-            distance: e1.dot(q) * inverse,
-            barycentric: [u, v],
-        })
+        inside.then(|| Meeting { distance: e1.dot(q) * inverse, barycentric: [u, v] })
     }
 
     fn hit(&self, meeting: &Meeting, direction: DVec3, distance: f64, origin: DVec3) -> Hit {
@@ -232,13 +206,8 @@ impl Triangle {
 
         let [u, v] = meeting.barycentric;
         let [n0, n1, n2] = self.shading_normals;
-        let interpolated =
-            (n0 * (1.0 - u - v) + n1 * u + n2 * v).normalize_or(geometric_normal);
-        let shading_normal = if interpolated.dot(geometric_normal) < 0.0 {
-            -interpolated
-        } else {
-            interpolated
-        };
+        let interpolated = (n0 * (1.0 - u - v) + n1 * u + n2 * v).normalize_or(geometric_normal);
+        let shading_normal = if interpolated.dot(geometric_normal) < 0.0 { -interpolated } else { interpolated };
         Hit {
             distance,
             position: origin + direction * distance,
@@ -246,5 +215,121 @@ impl Triangle {
             shading_normal,
             mesh: self.mesh as usize,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+    use scumble_core::{Camera, Light};
+    use scumble_scenes::{Mesh, cuboid, ground};
+
+    fn scene(meshes: Vec<Mesh>) -> Scene {
+        Scene {
+            name: "test".to_owned(),
+            meshes,
+            camera: Camera {
+                eye: DVec3::new(0.0, 2.0, 5.0),
+                target: DVec3::ZERO,
+                up: DVec3::Y,
+                vertical_fov: 0.8,
+                aspect: 1.5,
+                near: 0.1,
+                far: 100.0,
+            },
+            light: Light::Directional { direction: DVec3::NEG_Y, half_angle: 0.03 },
+            pcf_radius_world: 0.1,
+        }
+    }
+
+    fn unit_box(scale: f64, at: DVec3) -> Scene {
+        scene(vec![cuboid("box", at, at + scale, Vec3::ONE)])
+    }
+
+    /// Directions that cover the sphere evenly: a Fibonacci lattice.
+    fn directions(count: u32) -> impl Iterator<Item = DVec3> {
+        (0..count).map(move |i| {
+            let y = 1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(count);
+            let (sin, cos) = (f64::from(i) * 2.399_963_229_728_653).sin_cos();
+            let radius = (1.0 - y * y).sqrt();
+            DVec3::new(radius * cos, y, radius * sin)
+        })
+    }
+
+    #[test]
+    fn a_hit_has_the_distance_the_point_and_the_normal_of_the_surface() {
+        let rays = Rays::new(&scene(vec![ground("ground", DVec3::ZERO, 10.0, Vec3::ONE)]));
+        let hit = rays.first_hit(DVec3::new(1.0, 3.0, 0.0), DVec3::new(0.0, -2.0, 2.0)).unwrap();
+        assert!((hit.distance - 3.0 * 2f64.sqrt()).abs() < 1e-9);
+        assert!(hit.position.abs_diff_eq(DVec3::new(1.0, 0.0, 3.0), 1e-9));
+        assert_eq!((hit.geometric_normal, hit.shading_normal, hit.mesh), (DVec3::Y, DVec3::Y, 0));
+        // From below, the normal is turned.
+        let below = rays.first_hit(DVec3::NEG_Y, DVec3::Y).unwrap();
+        assert_eq!(below.geometric_normal, DVec3::NEG_Y);
+        assert!(rays.first_hit(DVec3::Y, DVec3::Y).is_none());
+    }
+
+    #[test]
+    fn no_ray_leaves_a_closed_box_at_any_scale_and_place() {
+        for (scale, at) in [(1.0, DVec3::ZERO), (1e-3, DVec3::ONE), (1e4, DVec3::ZERO), (1.0, DVec3::splat(4096.0))] {
+            let rays = Rays::new(&unit_box(scale, at));
+            let middle = at + 0.5 * scale;
+            for direction in directions(20_000) {
+                assert!(rays.first_hit(middle, direction).is_some(), "{scale} {at} {direction}");
+                assert!(!rays.free(middle, middle + 2.0 * scale * direction));
+            }
+        }
+    }
+
+    #[test]
+    fn no_ray_slips_through_the_edges_and_corners_of_a_box() {
+        let rays = Rays::new(&unit_box(1.0, DVec3::ZERO));
+        let middle = DVec3::splat(0.5);
+        for i in 0..=1000 {
+            let t = f64::from(i) / 1000.0;
+            // Along an edge, along the diagonal of a face where its two triangles meet.
+            for target in
+                [DVec3::new(1.0, 1.0, t), DVec3::new(0.0, t, 0.0), DVec3::new(t, 1.0, t), DVec3::new(t, 1.0, 1.0 - t)]
+            {
+                assert!(rays.first_hit(middle, target - middle).is_some(), "{target}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_segment_is_free_up_to_the_surface_and_not_beyond() {
+        let rays = Rays::new(&unit_box(1.0, DVec3::ZERO));
+        let from = DVec3::new(0.3, 5.0, 0.4);
+        let to = |height: f64| DVec3::new(0.3, height, 0.4);
+        assert!(rays.free(from, to(1.0 + rays.epsilon())));
+        assert!(!rays.free(from, to(1.0 - rays.epsilon())));
+        assert!(rays.free(from, from));
+    }
+
+    #[test]
+    fn a_blocker_beside_the_start_of_a_long_segment_is_not_missed() {
+        // Two far boxes make the scene long; the tree's own near limit must not reach the small step between the points.
+        let far = cuboid("far", DVec3::splat(90.0), DVec3::splat(100.0), Vec3::ONE);
+        let rays = Rays::new(&scene(vec![far, ground("sheet", DVec3::ZERO, 1.0, Vec3::ONE)]));
+        let above = DVec3::new(0.1, rays.epsilon(), 0.1);
+        assert!(!rays.free(above, DVec3::new(0.1, -50.0, 0.1)));
+    }
+
+    #[test]
+    fn the_nearest_of_many_surfaces_is_found() {
+        let sheets = (0..50).map(|i| ground("sheet", DVec3::new(0.0, f64::from(i), 0.0), 2.0, Vec3::ONE)).collect();
+        let rays = Rays::new(&scene(sheets));
+        for i in 0..50 {
+            let hit = rays.first_hit(DVec3::new(0.1, f64::from(i) - 0.5, 0.2), DVec3::Y).unwrap();
+            assert!((hit.position.y - f64::from(i)).abs() < 1e-9 && hit.mesh == i as usize);
+        }
+    }
+
+    #[test]
+    fn a_scene_without_triangles_has_nothing_in_the_way() {
+        let rays = Rays::new(&scene(Vec::new()));
+        assert!(rays.free(DVec3::ZERO, DVec3::ONE));
+        assert!(rays.first_hit(DVec3::ZERO, DVec3::ONE).is_none());
     }
 }
