@@ -85,6 +85,7 @@ fn program(name: &str, arguments: &[&str]) -> Result<()> {
     let status = Command::new(&file)
         .args(arguments)
         .current_dir(run::workspace())
+        .envs(run::QUIET)
         .status()
         .with_context(|| format!("could not start {}", file.display()))?;
     anyhow::ensure!(status.success(), "`{name} {}` ended with {status}", arguments.join(" "));

@@ -44,7 +44,8 @@ fn study(summary: &Summary) -> String {
          than 2048 x 2048.</p>\
          <h2>1. What they saw</h2>\
          <p>A straight silhouette, and the same silhouette as a shadow map stores it (a stair at 45 degrees, or one \
-         step), both softened by the same filter. Which one was the line?</p>\
+         step), both softened by the same filter. Which one was the line? Columns: stair and its line, step and its line; radii from \
+         the top 0.5, 1, 2, 3.47 and 6 texels.</p>\
          <a href=stimuli.png><img src=stimuli.png alt='Filtered lines, stairs and steps'></a>\
          <h2>2. What they answered</h2>\
          <p>A QUEST staircase chooses each next radius. <a href=study/report.html>The whole analysis</a> has the numbers.</p>\
@@ -64,16 +65,17 @@ fn table(summary: &Summary) -> Result<String> {
          Milliseconds are medians (quartiles) of {} frames that took turns, {} x {} pixels, on {}. The error is that of \
          the shadow fraction against the same filter over an alias-free shadow, by rays: only the texel differs.</p>\
          <table><thead><tr><th>Scene<th>Filter<th>Map<th>Texels<th>Depth map, ms<th>Demand, ms<th>Evaluation, ms\
-         <th>RMS error, penumbra<th>99 %<th>RMS, all lit sides</thead><tbody>",
+         <th>RMS error, penumbra<th>99 %<th>RMS, all lit sides<th>Texels seen</thead><tbody>",
         bench.frames, bench.width, bench.height, bench.machine.device
     );
     for row in &bench.rows {
         let Row { scene, triangles, method, times_ms: times, comparison, .. } = row;
         write!(
             html,
-            "<tr class={kind}><td>{scene} <small>{triangles} triangles</small><td>{method}<td>{size} <small>{kind}</small>\
-             <td>{texels}<td>{depth}<td>{demand}<td>{evaluation}<td>{rms:.4}<td>{p99:.3}<td>{all:.4}",
-            kind = if row.size == "adaptive" { "adaptive" } else { "fixed" },
+            "<tr class='{kind}'><td>{scene} <small>{triangles} triangles</small><td>{method}<td>{size} <small>{note}</small>\
+             <td>{texels}<td>{depth}<td>{demand}<td>{evaluation}<td>{rms:.4}<td>{p99:.3}<td>{all:.4}<td>{seen}",
+            kind = kind(row),
+            note = if row.is_capped() { "at the cap" } else { kind(row) },
             size = row.size_texels(),
             texels = row.texels,
             depth = time(&times.depth),
@@ -82,10 +84,22 @@ fn table(summary: &Summary) -> Result<String> {
             rms = comparison.penumbra.rms,
             p99 = comparison.penumbra.p99,
             all = comparison.lit_facing.rms,
+            seen = comparison.violation_share.map_or("-".into(), |share| format!("{:.0} %", 100.0 * share)),
         )?;
     }
     html += "</tbody></table>";
+    html += "<p><i>Texels seen</i>: share of the penumbra whose filter is narrower than the fitted ratio asks for. \
+             <i>At the cap</i>: something on screen, mostly a contact, asks for more texels than allowed; soft shadows \
+             narrower than the map can hide are widened instead, as Kreuzer does (2017, 5.1.3).</p>";
     Ok(html)
+}
+
+fn kind(row: &Row) -> &'static str {
+    match (row.is_adaptive(), row.is_capped()) {
+        (false, _) => "fixed",
+        (true, false) => "adaptive",
+        (true, true) => "adaptive capped",
+    }
 }
 
 fn time(spread: &Option<Spread>) -> String {

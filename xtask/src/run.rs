@@ -4,6 +4,9 @@ use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
 use std::process::Command;
 
+/// Without it Mesa complains of a missing `XDG_RUNTIME_DIR` wherever there is no desktop.
+pub const QUIET: [(&str, &str); 1] = [("NODEVICE_SELECT", "1")];
+
 /// Runs a program with its output on this terminal.
 pub fn visibly(program: &str, arguments: &[&str]) -> Result<()> {
     let line = format!("{program} {}", arguments.join(" "));
@@ -12,6 +15,7 @@ pub fn visibly(program: &str, arguments: &[&str]) -> Result<()> {
         .args(arguments)
         .current_dir(workspace())
         .env("DEBIAN_FRONTEND", "noninteractive")
+        .envs(QUIET)
         .status()
         .with_context(|| format!("could not start `{line}`"))?;
     if !status.success() {

@@ -70,6 +70,10 @@ pub struct Row {
 pub struct Map {
     /// x, y, width, height in texels.
     pub viewport: [u32; 4],
+    /// The screen asks for more than the largest size allowed: narrower filters than `radius_min_world` are widened.
+    pub capped: bool,
+    /// Metres at the light's reference plane.
+    pub radius_min_world: f64,
 }
 
 /// Absent where the device has no timestamps.
@@ -91,6 +95,8 @@ pub struct Spread {
 pub struct Comparison {
     pub lit_facing: Error,
     pub penumbra: Error,
+    /// Share of the penumbra whose filter is narrower than the relation asks for.
+    pub violation_share: Option<f64>,
 }
 
 /// Of the shadow fraction, against the kernel truth.
@@ -116,7 +122,13 @@ impl Row {
         self.maps.iter().map(size).collect::<Vec<_>>().join(", ")
     }
 
-    fn is_adaptive(&self) -> bool {
+    /// Whether an adaptive size gave way to the cap.
+    pub fn is_capped(&self) -> bool {
+        self.is_adaptive() && self.maps.iter().any(|map| map.capped)
+    }
+
+    /// Whether the size was chosen by the relation.
+    pub fn is_adaptive(&self) -> bool {
         self.size == "adaptive"
     }
 }
