@@ -70,10 +70,8 @@ pub struct Row {
 pub struct Map {
     /// x, y, width, height in texels.
     pub viewport: [u32; 4],
-    /// The screen asks for more than the largest size allowed: narrower filters than `radius_min_world` are widened.
+    /// The screen asks for more than the largest size allowed.
     pub capped: bool,
-    /// Metres at the light's reference plane.
-    pub radius_min_world: f64,
 }
 
 /// Absent where the device has no timestamps.
