@@ -3,6 +3,8 @@
 //! A half plane covers the share `F(t)` of a disc whose centre is `t` radii inside of its edge (`half_plane_under_disc`); a
 //! slit of width w leaves `F(t + w / 2r) - F(t - w / 2r)` lit. Many taps make the sum an integral.
 
+#![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
+
 use glam::{DVec3, Vec3};
 use scumble_core::{Camera, Filter, Fit, Light, Taps, fit, half_plane_under_disc};
 use scumble_reference::{KernelTruth, Rays, Receiver};

@@ -12,11 +12,7 @@ use std::path::Path;
 const SAMPLES: usize = 4096;
 
 /// The mean linear colour of every image; an image that cannot be read is white, with a warning.
-pub fn image_means(
-    document: &gltf::Document,
-    file: &Path,
-    buffers: &[gltf::buffer::Data],
-) -> Vec<Vec3> {
+pub fn image_means(document: &gltf::Document, file: &Path, buffers: &[gltf::buffer::Data]) -> Vec<Vec3> {
     document
         .images()
         .map(|image| {
@@ -26,11 +22,7 @@ pub fn image_means(
             match Data::from_source(image.source(), file.parent(), buffers) {
                 Ok(data) => mean(&data),
                 Err(problem) => {
-                    tracing::warn!(
-                        "{}: image {} cannot be read ({problem})",
-                        file.display(),
-                        image.index()
-                    );
+                    tracing::warn!("{}: image {} cannot be read ({problem})", file.display(), image.index());
                     Vec3::ONE
                 }
             }
@@ -79,19 +71,11 @@ fn mean(image: &Data) -> Vec3 {
     let texels = image.pixels.len() / channels;
     let stride = (texels / SAMPLES).max(1) * channels;
     let (mut sum, mut weight) = (Vec3::ZERO, 0.0);
-    for texel in image
-        .pixels
-        .chunks_exact(channels)
-        .step_by(stride / channels)
-    {
+    for texel in image.pixels.chunks_exact(channels).step_by(stride / channels) {
         let alpha = texel.get(3).map_or(1.0, |&a| f32::from(a) / 255.0);
         let srgb = [texel[0], texel[1], texel[2]].map(|code| f32::from(code) / 255.0);
         sum += alpha * Vec3::from_array(srgb.map(crate::obj::linear_from_srgb));
         weight += alpha;
     }
-    if weight > 0.0 {
-        sum / weight
-    } else {
-        Vec3::ONE
-    }
+    if weight > 0.0 { sum / weight } else { Vec3::ONE }
 }

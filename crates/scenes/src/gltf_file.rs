@@ -22,27 +22,15 @@ struct Source<'a> {
 /// Loads a glTF file, in metres and world space.
 pub fn load_gltf(file: &Path) -> Result<Vec<Mesh>, Error> {
     // Decode the document and its buffers.
-    let bytes = std::fs::read(file).map_err(|source| Error::Read {
-        file: file.to_owned(),
-        source,
-    })?;
-    let gltf::Gltf { document, blob } =
-        gltf::Gltf::from_slice(&bytes).map_err(|problem| not_gltf(file, &problem))?;
-    let buffers = gltf::import_buffers(&document, file.parent(), blob)
-        .map_err(|problem| bad_buffer(file, &problem))?;
+    let bytes = std::fs::read(file).map_err(|source| Error::Read { file: file.to_owned(), source })?;
+    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).map_err(|problem| not_gltf(file, &problem))?;
+    let buffers = gltf::import_buffers(&document, file.parent(), blob).map_err(|problem| bad_buffer(file, &problem))?;
     let image_means = crate::gltf_color::image_means(&document, file, &buffers);
-    let source = Source {
-        file,
-        buffers: &buffers,
-        image_means: &image_means,
-    };
+    let source = Source { file, buffers: &buffers, image_means: &image_means };
 
     // Walk the default scene, or the first, or all root nodes of a file without scenes.
     let mut meshes = Vec::new();
-    match document
-        .default_scene()
-        .or_else(|| document.scenes().next())
-    {
+    match document.default_scene().or_else(|| document.scenes().next()) {
         Some(scene) => {
             for node in scene.nodes() {
                 source.add_node(&node, DMat4::IDENTITY, &mut meshes)?;
@@ -66,26 +54,11 @@ pub fn load_gltf(file: &Path) -> Result<Vec<Mesh>, Error> {
 }
 
 impl Source<'_> {
-    fn content(
-        &self,
-        place: impl Into<String>,
-        problem: impl Into<String>,
-        allowed: &'static str,
-    ) -> Error {
-        Error::Content {
-            file: self.file.to_owned(),
-            place: place.into(),
-            problem: problem.into(),
-            allowed,
-        }
+    fn content(&self, place: impl Into<String>, problem: impl Into<String>, allowed: &'static str) -> Error {
+        Error::Content { file: self.file.to_owned(), place: place.into(), problem: problem.into(), allowed }
     }
 
-    fn add_node(
-        &self,
-        node: &gltf::Node<'_>,
-        world_from_parent: DMat4,
-        meshes: &mut Vec<Mesh>,
-    ) -> Result<(), Error> {
+    fn add_node(&self, node: &gltf::Node<'_>, world_from_parent: DMat4, meshes: &mut Vec<Mesh>) -> Result<(), Error> {
         let parent_from_node = Mat4::from_cols_array_2d(&node.transform().matrix()).as_dmat4();
         let world_from_node = world_from_parent * parent_from_node;
         if !world_from_node.is_finite() {
@@ -109,10 +82,7 @@ impl Source<'_> {
                     positions,
                     normals,
                     triangles,
-                    linear_color: crate::gltf_color::linear_color(
-                        &primitive.material(),
-                        self.image_means,
-                    ),
+                    linear_color: crate::gltf_color::linear_color(&primitive.material(), self.image_means),
                 };
                 meshes.push(named.transformed(&DAffine3::from_mat4(world_from_node)));
             }
@@ -124,15 +94,8 @@ impl Source<'_> {
     }
 
     /// The triangles of a primitive in the node's space; points and lines give none.
-    fn loose_triangles(
-        &self,
-        primitive: &gltf::Primitive<'_>,
-        place: &str,
-    ) -> Result<Loose, Error> {
-        if !matches!(
-            primitive.mode(),
-            Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
-        ) {
+    fn loose_triangles(&self, primitive: &gltf::Primitive<'_>, place: &str) -> Result<Loose, Error> {
+        if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             return Ok(Loose::default());
         }
 
@@ -141,32 +104,19 @@ impl Source<'_> {
             return Ok(Loose::default());
         };
         let normal_accessor = primitive.get(&gltf::Semantic::Normals);
-        let accessors = [
-            Some(position_accessor),
-            normal_accessor,
-            primitive.indices(),
-        ];
+        let accessors = [Some(position_accessor), normal_accessor, primitive.indices()];
         for accessor in accessors.iter().flatten() {
             self.check_range(accessor)?;
         }
 
         // Read.
-        let reader =
-            primitive.reader(|buffer| self.buffers.get(buffer.index()).map(|data| &data.0[..]));
+        let reader = primitive.reader(|buffer| self.buffers.get(buffer.index()).map(|data| &data.0[..]));
         let vectors = |values: Option<Vec<[f32; 3]>>| {
-            values
-                .unwrap_or_default()
-                .into_iter()
-                .map(Vec3::from_array)
-                .collect::<Vec<_>>()
+            values.unwrap_or_default().into_iter().map(Vec3::from_array).collect::<Vec<_>>()
         };
         let positions = vectors(reader.read_positions().map(Iterator::collect));
         let normals = vectors(reader.read_normals().map(Iterator::collect));
-        if let Some(vertex) = positions
-            .iter()
-            .chain(&normals)
-            .position(|p| !p.is_finite())
-        {
+        if let Some(vertex) = positions.iter().chain(&normals).position(|p| !p.is_finite()) {
             return Err(self.content(
                 format!("{place} vertex {}", vertex % positions.len()),
                 "a coordinate that is not finite",
@@ -191,9 +141,7 @@ impl Source<'_> {
             let corners = triangle.map(|i| positions[i]);
             if has_area(corners) {
                 loose.corners.push(corners);
-                loose
-                    .normals
-                    .push(triangle.map(|i| normals.get(i).copied().unwrap_or(Vec3::ZERO)));
+                loose.normals.push(triangle.map(|i| normals.get(i).copied().unwrap_or(Vec3::ZERO)));
             }
         }
         Ok(loose)
@@ -208,10 +156,7 @@ impl Source<'_> {
         let Some(view) = accessor.view() else {
             return Err(self.content(place, "no buffer view", "allowed are plain accessors"));
         };
-        let available = self
-            .buffers
-            .get(view.buffer().index())
-            .map_or(0, |data| data.0.len());
+        let available = self.buffers.get(view.buffer().index()).map_or(0, |data| data.0.len());
         let stride = view.stride().unwrap_or_else(|| accessor.size());
         let end_in_view = accessor
             .count()
@@ -242,24 +187,12 @@ fn triangles_of(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
         Mode::TriangleStrip => indices
             .windows(3)
             .enumerate()
-            .map(|(i, w)| {
-                if i % 2 == 0 {
-                    [w[0], w[1], w[2]]
-                } else {
-                    [w[1], w[0], w[2]]
-                }
-            })
+            .map(|(i, w)| if i % 2 == 0 { [w[0], w[1], w[2]] } else { [w[1], w[0], w[2]] })
             .collect(),
-        Mode::TriangleFan => indices
-            .get(1..)
-            .unwrap_or_default()
-            .windows(2)
-            .map(|w| [w[0], w[1], indices[0]])
-            .collect(),
-        _ => indices
-            .chunks_exact(3)
-            .map(|c| [c[0], c[1], c[2]])
-            .collect(),
+        Mode::TriangleFan => {
+            indices.get(1..).unwrap_or_default().windows(2).map(|w| [w[0], w[1], indices[0]]).collect()
+        }
+        _ => indices.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
     }
 }
 
@@ -274,14 +207,9 @@ fn not_gltf(file: &Path, problem: &gltf::Error) -> Error {
 
 fn bad_buffer(file: &Path, problem: &gltf::Error) -> Error {
     let (place, problem) = match problem {
-        gltf::Error::BufferLength {
-            buffer,
-            expected,
-            actual,
-        } => (
-            format!("buffer {buffer}"),
-            format!("{actual} bytes where {expected} are announced"),
-        ),
+        gltf::Error::BufferLength { buffer, expected, actual } => {
+            (format!("buffer {buffer}"), format!("{actual} bytes where {expected} are announced"))
+        }
         other => ("buffers".to_owned(), one_line(other)),
     };
     Error::Content {

@@ -34,14 +34,10 @@ impl Mesh {
         let linear = world_from_model.matrix3;
         let normal_from_model = inverse_transpose(&linear);
         for position in &mut self.positions {
-            *position = world_from_model
-                .transform_point3(position.as_dvec3())
-                .as_vec3();
+            *position = world_from_model.transform_point3(position.as_dvec3()).as_vec3();
         }
         for normal in &mut self.normals {
-            *normal = (normal_from_model * normal.as_dvec3())
-                .normalize_or(DVec3::Y)
-                .as_vec3();
+            *normal = (normal_from_model * normal.as_dvec3()).normalize_or(DVec3::Y).as_vec3();
         }
 
         // A mirroring transform would turn the triangles inside out.
@@ -63,10 +59,7 @@ impl Mesh {
 
 /// The smallest box around all positions of all meshes; `None` when there are none.
 pub fn bounds_of(meshes: &[Mesh]) -> Option<Aabb> {
-    let mut corners = meshes
-        .iter()
-        .flat_map(|mesh| &mesh.positions)
-        .map(|p| p.as_dvec3());
+    let mut corners = meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3());
     let first = corners.next()?;
     let (min, max) = corners.fold((first, first), |(min, max), p| (min.min(p), max.max(p)));
     Some(Aabb { min, max })
@@ -75,16 +68,8 @@ pub fn bounds_of(meshes: &[Mesh]) -> Option<Aabb> {
 /// `transpose(inverse(m))` up to a positive factor, defined for singular `m` too: the cofactor matrix with the sign of
 /// the determinant, so that the normals of a mirrored mesh keep pointing outwards.
 fn inverse_transpose(m: &DMat3) -> DMat3 {
-    let cofactors = DMat3::from_cols(
-        m.y_axis.cross(m.z_axis),
-        m.z_axis.cross(m.x_axis),
-        m.x_axis.cross(m.y_axis),
-    );
-    if m.determinant() < 0.0 {
-        cofactors * -1.0
-    } else {
-        cofactors
-    }
+    let cofactors = DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+    if m.determinant() < 0.0 { cofactors * -1.0 } else { cofactors }
 }
 
 #[cfg(test)]
@@ -96,8 +81,7 @@ mod tests {
     fn winding_agrees(mesh: &Mesh) -> bool {
         mesh.triangles.iter().all(|&[a, b, c]| {
             let [a, b, c] = [a, b, c].map(|i| i as usize);
-            let face = (mesh.positions[b] - mesh.positions[a])
-                .cross(mesh.positions[c] - mesh.positions[a]);
+            let face = (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
             face.dot(mesh.normals[a]) > 0.0
         })
     }

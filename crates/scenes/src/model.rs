@@ -31,10 +31,7 @@ pub struct Placement {
 impl Placement {
     /// Stands at `x`, `z` on the ground at height 0, turned by `yaw` radians.
     pub fn at(x: f64, z: f64, yaw: f64) -> Self {
-        Self {
-            foot: DVec3::new(x, 0.0, z),
-            yaw,
-        }
+        Self { foot: DVec3::new(x, 0.0, z), yaw }
     }
 }
 
@@ -47,12 +44,9 @@ pub fn load_asset(assets: &Path, name: &str) -> Result<Vec<Mesh>, Error> {
     };
     let middle = (bounds.min + bounds.max) / 2.0;
     let foot = DVec3::new(middle.x, bounds.min.y, middle.z);
-    let metres_from_model = DAffine3::from_scale(DVec3::splat(METRES_PER_CENTIMETRE))
-        * DAffine3::from_translation(-foot);
-    Ok(meshes
-        .into_iter()
-        .map(|mesh| mesh.transformed(&metres_from_model))
-        .collect())
+    let metres_from_model =
+        DAffine3::from_scale(DVec3::splat(METRES_PER_CENTIMETRE)) * DAffine3::from_translation(-foot);
+    Ok(meshes.into_iter().map(|mesh| mesh.transformed(&metres_from_model)).collect())
 }
 
 /// Copies of a model that stands on the origin, one for each placement.
@@ -60,11 +54,9 @@ pub fn place(model: &[Mesh], placements: &[Placement]) -> Vec<Mesh> {
     placements
         .iter()
         .flat_map(|placement| {
-            let world_from_model = DAffine3::from_translation(placement.foot)
-                * DAffine3::from_rotation_y(placement.yaw);
-            model
-                .iter()
-                .map(move |mesh| mesh.clone().transformed(&world_from_model))
+            let world_from_model =
+                DAffine3::from_translation(placement.foot) * DAffine3::from_rotation_y(placement.yaw);
+            model.iter().map(move |mesh| mesh.clone().transformed(&world_from_model))
         })
         .collect()
 }

@@ -13,12 +13,8 @@ use std::path::Path;
 /// Reflectance of faces without a material: a light grey, linear.
 const NO_MATERIAL: Vec3 = Vec3::splat(0.5);
 
-const LOAD_OPTIONS: tobj::LoadOptions = tobj::LoadOptions {
-    single_index: false,
-    triangulate: false,
-    ignore_points: true,
-    ignore_lines: true,
-};
+const LOAD_OPTIONS: tobj::LoadOptions =
+    tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: true, ignore_lines: true };
 
 /// Loads an OBJ file in the file's own units.
 ///
@@ -32,22 +28,19 @@ pub fn load_obj(file: &Path) -> Result<Vec<Mesh>, Error> {
         allowed: found.allowed,
     })?;
 
-    let (models, materials) = tobj::load_obj_buf(&mut text.as_bytes(), &LOAD_OPTIONS, |library| {
-        load_library(file, library)
-    })
-    .map_err(|problem| Error::Content {
-        file: file.to_owned(),
-        place: "as a whole".to_owned(),
-        problem: problem.to_string(),
-        allowed: "allowed is Wavefront OBJ",
-    })?;
+    let (models, materials) =
+        tobj::load_obj_buf(&mut text.as_bytes(), &LOAD_OPTIONS, |library| load_library(file, library)).map_err(
+            |problem| Error::Content {
+                file: file.to_owned(),
+                place: "as a whole".to_owned(),
+                problem: problem.to_string(),
+                allowed: "allowed is Wavefront OBJ",
+            },
+        )?;
     let materials = materials.unwrap_or_default();
 
-    let meshes: Vec<Mesh> = models
-        .iter()
-        .map(|model| mesh_of(model, &materials))
-        .filter(|mesh| !mesh.triangles.is_empty())
-        .collect();
+    let meshes: Vec<Mesh> =
+        models.iter().map(|model| mesh_of(model, &materials)).filter(|mesh| !mesh.triangles.is_empty()).collect();
     if meshes.is_empty() {
         return Err(Error::Content {
             file: file.to_owned(),
@@ -60,10 +53,7 @@ pub fn load_obj(file: &Path) -> Result<Vec<Mesh>, Error> {
 }
 
 fn read_text(file: &Path) -> Result<String, Error> {
-    let bytes = std::fs::read(file).map_err(|source| Error::Read {
-        file: file.to_owned(),
-        source,
-    })?;
+    let bytes = std::fs::read(file).map_err(|source| Error::Read { file: file.to_owned(), source })?;
     String::from_utf8(bytes).map_err(|problem| Error::Content {
         file: file.to_owned(),
         place: format!("byte {}", problem.utf8_error().valid_up_to()),
@@ -78,10 +68,7 @@ fn load_library(obj: &Path, library: &Path) -> tobj::MTLLoadResult {
         .map_err(|_| tobj::LoadError::OpenFileFailed)
         .and_then(|file| tobj::load_mtl_buf(&mut BufReader::new(file)));
     if let Err(problem) = &loaded {
-        tracing::warn!(
-            "{}: material library cannot be read ({problem}); faces are grey",
-            path.display()
-        );
+        tracing::warn!("{}: material library cannot be read ({problem}); faces are grey", path.display());
     }
     loaded
 }
@@ -99,9 +86,7 @@ fn mesh_of(model: &tobj::Model, materials: &[tobj::Material]) -> Mesh {
         triangles,
         linear_color: material
             .and_then(|m| m.diffuse)
-            .map_or(NO_MATERIAL, |srgb| {
-                Vec3::from_array(srgb.map(linear_from_srgb))
-            }),
+            .map_or(NO_MATERIAL, |srgb| Vec3::from_array(srgb.map(linear_from_srgb))),
     }
 }
 
@@ -113,15 +98,12 @@ fn loose_triangles(mesh: &tobj::Mesh) -> Loose {
         let face = first..first + arity;
         first += arity;
 
-        let corners: Vec<Vec3> = mesh.indices[face.clone()]
-            .iter()
-            .map(|&i| vector(&mesh.positions, i as usize))
-            .collect();
+        let corners: Vec<Vec3> =
+            mesh.indices[face.clone()].iter().map(|&i| vector(&mesh.positions, i as usize)).collect();
         let normals: Vec<Vec3> = match mesh.normal_indices.get(face) {
-            Some(indices) if !indices.is_empty() => indices
-                .iter()
-                .map(|&i| vector(&mesh.normals, i as usize))
-                .collect(),
+            Some(indices) if !indices.is_empty() => {
+                indices.iter().map(|&i| vector(&mesh.normals, i as usize)).collect()
+            }
             _ => vec![Vec3::ZERO; arity],
         };
         for triangle in triangulate(&corners) {
@@ -145,9 +127,5 @@ fn arities(mesh: &tobj::Mesh) -> Vec<usize> {
 /// IEC 61966-2-1 decoding, on 0..=1; values outside are clamped.
 pub(crate) fn linear_from_srgb(code: f32) -> f32 {
     let code = code.clamp(0.0, 1.0);
-    if code <= 0.04045 {
-        code / 12.92
-    } else {
-        ((code + 0.055) / 1.055).powf(2.4)
-    }
+    if code <= 0.04045 { code / 12.92 } else { ((code + 0.055) / 1.055).powf(2.4) }
 }

@@ -21,8 +21,7 @@ struct Counts([usize; 3]);
 const KEYWORDS: [&str; 3] = ["v", "vt", "vn"];
 const NAMES: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 const ALLOWED_NUMBERS: &str = "allowed are finite numbers, three of them";
-const ALLOWED_INDICES: &str =
-    "allowed are indices from 1 to the number given, or negative ones that count back";
+const ALLOWED_INDICES: &str = "allowed are indices from 1 to the number given, or negative ones that count back";
 
 /// Checks all lines; the first problem ends the check.
 pub fn check(text: &str) -> Result<(), LineProblem> {
@@ -43,11 +42,7 @@ pub fn check(text: &str) -> Result<(), LineProblem> {
             "f" => check_face(words, so_far, total),
             _ => Ok(()),
         };
-        checked.map_err(|(problem, allowed)| LineProblem {
-            line: index + 1,
-            problem,
-            allowed,
-        })?;
+        checked.map_err(|(problem, allowed)| LineProblem { line: index + 1, problem, allowed })?;
     }
     Ok(())
 }
@@ -127,23 +122,11 @@ mod tests {
         assert_eq!(face("0 1 2").0, 4);
         assert_eq!(face("-4 1 2").0, 4);
         assert_eq!(face("1 2 x").0, 4);
-        assert_eq!(
-            face("1/1 2/1 3/1").1,
-            "texture coordinate index '1' where 0 are given"
-        );
-        assert_eq!(
-            face("1//1 2//1 3//1").1,
-            "normal index '1' where 0 are given"
-        );
+        assert_eq!(face("1/1 2/1 3/1").1, "texture coordinate index '1' where 0 are given");
+        assert_eq!(face("1//1 2//1 3//1").1, "normal index '1' where 0 are given");
         assert_eq!(face("1/2/3/4 2 3").0, 4);
-        assert_eq!(
-            problem_of("# head\nv 0 nan 0\n"),
-            (2, "coordinate 'nan'".to_owned())
-        );
-        assert_eq!(
-            problem_of("v 0 1e39 0\n"),
-            (1, "coordinate '1e39'".to_owned())
-        );
+        assert_eq!(problem_of("# head\nv 0 nan 0\n"), (2, "coordinate 'nan'".to_owned()));
+        assert_eq!(problem_of("v 0 1e39 0\n"), (1, "coordinate '1e39'".to_owned()));
         assert_eq!(problem_of("v 0 1\n"), (1, "2 coordinates".to_owned()));
     }
 }

@@ -17,20 +17,14 @@ pub fn triangulate(corners: &[Vec3]) -> Vec<[usize; 3]> {
         3 => vec![[0, 1, 2]],
         _ => clip_ears(corners),
     };
-    triangles
-        .into_iter()
-        .filter(|t| has_area(t.map(|i| corners[i])))
-        .collect()
+    triangles.into_iter().filter(|t| has_area(t.map(|i| corners[i]))).collect()
 }
 
 /// Whether a triangle has a normal in `f64`. It is the condition for every later use: shading, rays, bias.
 pub fn has_area(triangle: [Vec3; 3]) -> bool {
     let [a, b, c] = triangle.map(|p| p.as_dvec3());
     let twice_area = (b - a).cross(c - a).length();
-    let longest_squared = (b - a)
-        .length_squared()
-        .max((c - a).length_squared())
-        .max((c - b).length_squared());
+    let longest_squared = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
     // 1e-7 is one f32 rounding step: a height below it is not resolved by the positions.
     twice_area > 1e-7 * longest_squared
 }
@@ -39,16 +33,12 @@ fn clip_ears(corners: &[Vec3]) -> Vec<[usize; 3]> {
     let origin = corners[0].as_dvec3();
     let relative: Vec<DVec3> = corners.iter().map(|p| p.as_dvec3() - origin).collect();
     let normal = newell_normal(&relative);
-    let flat: Vec<f64> = relative
-        .iter()
-        .flat_map(|&p| project(p, normal).to_array())
-        .collect();
+    let flat: Vec<f64> = relative.iter().flat_map(|&p| project(p, normal).to_array()).collect();
 
     match earcutr::earcut(&flat, &[], 2) {
-        Ok(indices) => indices
-            .chunks_exact(3)
-            .map(|t| with_winding_of([t[0], t[1], t[2]], &relative, normal))
-            .collect(),
+        Ok(indices) => {
+            indices.chunks_exact(3).map(|t| with_winding_of([t[0], t[1], t[2]], &relative, normal)).collect()
+        }
         // Only malformed input arrays are refused, and these are not.
         Err(_) => Vec::new(),
     }
@@ -74,11 +64,7 @@ fn project(p: DVec3, normal: DVec3) -> DVec2 {
 /// The ear clipper orders its triangles by its own rule; the polygon's winding says where its front is.
 fn with_winding_of([a, b, c]: [usize; 3], corners: &[DVec3], normal: DVec3) -> [usize; 3] {
     let face = (corners[b] - corners[a]).cross(corners[c] - corners[a]);
-    if face.dot(normal) < 0.0 {
-        [a, c, b]
-    } else {
-        [a, b, c]
-    }
+    if face.dot(normal) < 0.0 { [a, c, b] } else { [a, b, c] }
 }
 
 #[cfg(test)]
@@ -111,9 +97,7 @@ mod tests {
     #[test]
     fn a_concave_polygon_of_75_corners_keeps_its_area_where_a_fan_does_not() {
         let corners = star();
-        let exact = newell_normal(&corners.iter().map(|p| p.as_dvec3()).collect::<Vec<_>>())
-            .length() as f32
-            / 2.0;
+        let exact = newell_normal(&corners.iter().map(|p| p.as_dvec3()).collect::<Vec<_>>()).length() as f32 / 2.0;
         let triangles = triangulate(&corners);
         assert_eq!(triangles.len(), 73);
         assert!((area(&corners, &triangles) - exact).abs() < 1e-5 * exact);

@@ -22,10 +22,7 @@ pub struct Scene {
 impl Scene {
     /// The smallest box around all meshes, the ground included; a point at the origin for a scene without positions.
     pub fn bounds(&self) -> Aabb {
-        bounds_of(&self.meshes).unwrap_or(Aabb {
-            min: DVec3::ZERO,
-            max: DVec3::ZERO,
-        })
+        bounds_of(&self.meshes).unwrap_or(Aabb { min: DVec3::ZERO, max: DVec3::ZERO })
     }
 
     /// Triangles of all meshes together.

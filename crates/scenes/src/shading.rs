@@ -97,13 +97,10 @@ mod tests {
     fn roof(angle: f32) -> Loose {
         let turned = Vec3::new(angle.cos(), -angle.sin(), 0.0);
         without_normals(
-            vec![
-                [Vec3::ZERO, Vec3::Z, Vec3::X * -1.0],
-                [Vec3::ZERO, turned, Vec3::Z],
-            ]
-            .into_iter()
-            .map(|[a, b, c]| [a, c, b])
-            .collect(),
+            vec![[Vec3::ZERO, Vec3::Z, Vec3::X * -1.0], [Vec3::ZERO, turned, Vec3::Z]]
+                .into_iter()
+                .map(|[a, b, c]| [a, c, b])
+                .collect(),
         )
     }
 

@@ -8,36 +8,17 @@ pub fn ground(name: &str, center: DVec3, size: f64, linear_color: Vec3) -> Mesh 
     let half = size / 2.0;
     let corner = |x: f64, z: f64| center + DVec3::new(x * half, 0.0, z * half);
     let mut mesh = empty(name, linear_color);
-    push_quad(
-        &mut mesh,
-        [
-            corner(-1.0, 1.0),
-            corner(1.0, 1.0),
-            corner(1.0, -1.0),
-            corner(-1.0, -1.0),
-        ],
-    );
+    push_quad(&mut mesh, [corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)]);
     mesh
 }
 
 /// An axis-aligned box between two corners, normals outwards, twelve triangles.
 pub fn cuboid(name: &str, min: DVec3, max: DVec3, linear_color: Vec3) -> Mesh {
     // Corner i takes max where bit 0, 1, 2 of i is set for x, y, z; faces counter-clockwise from outside.
-    const FACES: [[usize; 4]; 6] = [
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-    ];
+    const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     let corner = |i: usize| {
         let pick = |axis: usize| {
-            if i >> axis & 1 == 1 {
-                max[axis]
-            } else {
-                min[axis]
-            }
+            if i >> axis & 1 == 1 { max[axis] } else { min[axis] }
         };
         DVec3::new(pick(0), pick(1), pick(2))
     };
@@ -49,26 +30,16 @@ pub fn cuboid(name: &str, min: DVec3, max: DVec3, linear_color: Vec3) -> Mesh {
 }
 
 fn empty(name: &str, linear_color: Vec3) -> Mesh {
-    Mesh {
-        name: name.to_owned(),
-        positions: Vec::new(),
-        normals: Vec::new(),
-        triangles: Vec::new(),
-        linear_color,
-    }
+    Mesh { name: name.to_owned(), positions: Vec::new(), normals: Vec::new(), triangles: Vec::new(), linear_color }
 }
 
 /// Appends a planar quad, counter-clockwise from the side of its normal.
 fn push_quad(mesh: &mut Mesh, corners: [DVec3; 4]) {
     let first = mesh.positions.len() as u32;
-    let normal = (corners[1] - corners[0])
-        .cross(corners[2] - corners[0])
-        .normalize()
-        .as_vec3();
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize().as_vec3();
     mesh.positions.extend(corners.map(|c| c.as_vec3()));
     mesh.normals.extend([normal; 4]);
-    mesh.triangles
-        .extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
 }
 
 #[cfg(test)]

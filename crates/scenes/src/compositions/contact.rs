@@ -13,12 +13,7 @@ pub fn contact(_assets: &Path) -> Result<Scene, Error> {
         name: "contact".to_owned(),
         meshes: vec![
             ground("ground", DVec3::ZERO, 12.0, Vec3::new(0.55, 0.52, 0.47)),
-            cuboid(
-                "box",
-                DVec3::new(-0.5, 0.0, -0.5),
-                DVec3::new(0.5, 1.5, 0.5),
-                Vec3::new(0.62, 0.27, 0.14),
-            ),
+            cuboid("box", DVec3::new(-0.5, 0.0, -0.5), DVec3::new(0.5, 1.5, 0.5), Vec3::new(0.62, 0.27, 0.14)),
         ],
         camera: Camera {
             eye: DVec3::new(-1.1, 2.6, 4.6),

@@ -8,29 +8,19 @@ use glam::{DVec3, Vec3};
 use scumble_core::{Camera, Light};
 use std::path::Path;
 
+/// Turns the keyboard to the left, so that lid and strings are seen from the side of the audience.
+const PIANO_YAW: f64 = -0.75;
+
 /// Composes the recital.
 pub fn recital(assets: &Path) -> Result<Scene, Error> {
     let mut meshes = vec![
-        cuboid(
-            "stage",
-            DVec3::new(-4.0, -0.2, -2.2),
-            DVec3::new(4.0, 0.0, 3.0),
-            Vec3::new(0.50, 0.33, 0.20),
-        ),
-        cuboid(
-            "wall",
-            DVec3::new(-4.0, -0.2, -2.3),
-            DVec3::new(4.0, 3.2, -2.2),
-            Vec3::new(0.58, 0.55, 0.52),
-        ),
+        cuboid("stage", DVec3::new(-6.0, -0.2, -2.2), DVec3::new(6.0, 0.0, 3.0), Vec3::new(0.50, 0.33, 0.20)),
+        cuboid("wall", DVec3::new(-6.0, -0.2, -2.3), DVec3::new(6.0, 3.2, -2.2), Vec3::new(0.58, 0.55, 0.52)),
     ];
-    meshes.extend(place(
-        &load_asset(assets, "pianoAQueue")?,
-        &[Placement::at(0.0, 0.0, 0.0)],
-    ));
+    meshes.extend(place(&load_asset(assets, "pianoAQueue")?, &[Placement::at(0.0, 0.0, PIANO_YAW)]));
     meshes.extend(place(
         &load_asset(assets, "pianoBench")?,
-        &[Placement::at(0.0, 1.2, 0.0)],
+        &[Placement::at(1.05 * PIANO_YAW.sin(), 1.05 * PIANO_YAW.cos(), PIANO_YAW)],
     ));
 
     let lamp = DVec3::new(-2.2, 3.6, 2.0);
@@ -38,8 +28,8 @@ pub fn recital(assets: &Path) -> Result<Scene, Error> {
         name: "recital".to_owned(),
         meshes,
         camera: Camera {
-            eye: DVec3::new(0.8, 1.9, 5.2),
-            target: DVec3::new(0.2, 0.6, 0.0),
+            eye: DVec3::new(1.2, 1.8, 4.4),
+            target: DVec3::new(0.25, 0.6, 0.0),
             up: DVec3::Y,
             vertical_fov: 0.60,
             aspect: ASPECT,

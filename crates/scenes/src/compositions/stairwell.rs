@@ -13,29 +13,11 @@ use std::path::Path;
 pub fn stairwell(assets: &Path) -> Result<Scene, Error> {
     let plaster = Vec3::new(0.66, 0.63, 0.57);
     let mut meshes = vec![
-        cuboid(
-            "floor",
-            DVec3::new(-3.0, -0.1, -1.9),
-            DVec3::new(3.0, 0.0, 3.0),
-            Vec3::new(0.42, 0.36, 0.30),
-        ),
-        cuboid(
-            "back wall",
-            DVec3::new(-3.0, 0.0, -2.0),
-            DVec3::new(3.0, 4.4, -1.9),
-            plaster,
-        ),
-        cuboid(
-            "side wall",
-            DVec3::new(-3.1, -0.1, -2.0),
-            DVec3::new(-3.0, 4.4, 3.0),
-            plaster,
-        ),
+        cuboid("floor", DVec3::new(-3.0, -0.1, -1.9), DVec3::new(4.4, 0.0, 3.6), Vec3::new(0.42, 0.36, 0.30)),
+        cuboid("back wall", DVec3::new(-3.0, 0.0, -2.0), DVec3::new(4.4, 6.0, -1.9), plaster),
+        cuboid("side wall", DVec3::new(-3.1, -0.1, -2.0), DVec3::new(-3.0, 6.0, 3.6), plaster),
     ];
-    meshes.extend(place(
-        &load_asset(assets, "spiralStaircase")?,
-        &[Placement::at(0.0, 0.0, 0.6)],
-    ));
+    meshes.extend(place(&load_asset(assets, "spiralStaircase")?, &[Placement::at(0.0, 0.0, 0.6)]));
 
     let lamp = DVec3::new(1.9, 4.9, 2.2);
     Ok(Scene {
@@ -52,8 +34,8 @@ pub fn stairwell(assets: &Path) -> Result<Scene, Error> {
         },
         light: Light::Spot {
             position: lamp,
-            direction: (DVec3::new(-0.3, 1.0, -0.2) - lamp).normalize(),
-            cone_half_angle: 0.62,
+            direction: (DVec3::new(-0.35, 1.35, -0.2) - lamp).normalize(),
+            cone_half_angle: 0.66,
             radius_world: 0.12,
         },
         pcf_radius_world: 0.02,

@@ -18,34 +18,14 @@ const PANEL_PITCH: f64 = 1.74;
 pub fn yard(assets: &Path) -> Result<Scene, Error> {
     let fence = load_asset(assets, "fence")?;
     let panels: Vec<Placement> = (0..PANELS)
-        .map(|i| {
-            Placement::at(
-                (f64::from(i) - f64::from(PANELS - 1) / 2.0) * PANEL_PITCH,
-                -1.6,
-                0.0,
-            )
-        })
+        .map(|i| Placement::at((f64::from(i) - f64::from(PANELS - 1) / 2.0) * PANEL_PITCH, -1.6, 0.0))
         .collect();
 
-    let mut meshes = vec![ground(
-        "ground",
-        DVec3::ZERO,
-        40.0,
-        Vec3::new(0.50, 0.46, 0.38),
-    )];
+    let mut meshes = vec![ground("ground", DVec3::ZERO, 40.0, Vec3::new(0.50, 0.46, 0.38))];
     meshes.extend(place(&fence, &panels));
-    meshes.extend(place(
-        &load_asset(assets, "childSwing")?,
-        &[Placement::at(-1.7, 0.3, 0.35)],
-    ));
-    meshes.extend(place(
-        &load_asset(assets, "umbrella")?,
-        &[Placement::at(1.7, 0.0, 0.0)],
-    ));
-    meshes.extend(place(
-        &load_asset(assets, "deckChair")?,
-        &[Placement::at(1.5, 0.9, -0.4)],
-    ));
+    meshes.extend(place(&load_asset(assets, "childSwing")?, &[Placement::at(-1.7, 0.3, 0.35)]));
+    meshes.extend(place(&load_asset(assets, "umbrella")?, &[Placement::at(1.7, 0.0, 0.0)]));
+    meshes.extend(place(&load_asset(assets, "deckChair")?, &[Placement::at(1.5, 0.9, -0.4)]));
 
     Ok(Scene {
         name: "yard".to_owned(),

@@ -1,0 +1,74 @@
+//! Every scene of the catalogue keeps what `Scene` and `Mesh` promise.
+
+#![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
+
+use glam::DVec3;
+use scumble_core::Light;
+use scumble_scenes::{Scene, catalogue, open};
+use std::path::PathBuf;
+
+fn assets() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../assets")
+}
+
+fn scenes() -> impl Iterator<Item = Scene> {
+    catalogue().iter().map(|entry| open(entry.name, &assets()).unwrap())
+}
+
+#[test]
+fn names_are_unique_and_described_in_one_line() {
+    for (i, entry) in catalogue().iter().enumerate() {
+        assert!(!entry.description.is_empty() && !entry.description.contains('\n'));
+        assert!(catalogue()[i + 1..].iter().all(|other| other.name != entry.name));
+        assert_eq!(open(entry.name, &assets()).unwrap().name, entry.name);
+    }
+}
+
+#[test]
+fn meshes_have_unit_normals_finite_positions_and_triangles_with_area() {
+    for scene in scenes() {
+        for mesh in &scene.meshes {
+            let place = format!("{} {}", scene.name, mesh.name);
+            assert_eq!(mesh.positions.len(), mesh.normals.len(), "{place}");
+            assert!(mesh.positions.iter().all(|p| p.is_finite()), "{place}");
+            assert!(mesh.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-5), "{place}");
+            assert!(mesh.linear_color.cmpge(glam::Vec3::ZERO).all() && mesh.linear_color.cmple(glam::Vec3::ONE).all());
+            for triangle in &mesh.triangles {
+                let [a, b, c] = triangle.map(|i| mesh.positions[i as usize].as_dvec3());
+                assert!((b - a).cross(c - a).length() > 0.0, "{place}");
+            }
+        }
+    }
+}
+
+#[test]
+fn cameras_and_lights_are_in_range_and_the_camera_sees_the_middle() {
+    for scene in scenes() {
+        assert!(scene.camera.checked().is_ok() && scene.light.checked().is_ok(), "{}", scene.name);
+        assert!(scene.pcf_radius_world > 0.0);
+        let ndc = scene.camera.clip_from_world().project_point3(scene.camera.target);
+        assert!(ndc.abs_diff_eq(DVec3::new(0.0, 0.0, ndc.z), 1e-9) && (0.0..1.0).contains(&ndc.z));
+        if let Light::Spot { position, .. } = scene.light {
+            let bounds = scene.bounds();
+            assert!(position.cmpgt(bounds.min).all(), "{} has its lamp inside", scene.name);
+        }
+    }
+}
+
+#[test]
+fn models_stand_on_the_ground_and_have_the_size_of_things() {
+    for scene in scenes() {
+        let is_stage = |name: &str| ["ground", "floor", "stage", "wall"].iter().any(|part| name.contains(part));
+        let mut models = scene.clone();
+        models.meshes.retain(|mesh| !is_stage(&mesh.name));
+        let bounds = models.bounds();
+        assert!(bounds.min.y.abs() < 1e-4, "{}: {bounds:?}", scene.name);
+        assert!((1.0..4.0).contains(&bounds.max.y), "{}: {bounds:?}", scene.name);
+    }
+}
+
+#[test]
+fn the_yard_is_as_rich_as_a_hundred_thousand_triangles() {
+    let yard = open("yard", &assets()).unwrap();
+    assert!((80_000..110_000).contains(&yard.triangle_count()), "{}", yard.triangle_count());
+}

@@ -1,0 +1,35 @@
+//! Scenes that the project does not ship, read from `../shared/scenes` beside the repository.
+//!
+//! Run with `cargo test -p scumble-scenes --test shared_scenes -- --ignored` where that folder is.
+
+use scumble_scenes::{Scene, open};
+use std::path::PathBuf;
+
+fn scene(path: &str) -> Scene {
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes").join(path);
+    open(&file.display().to_string(), &PathBuf::new()).expect("the file is in ../shared/scenes")
+}
+
+fn has_ground(scene: &Scene) -> bool {
+    scene.meshes.iter().any(|mesh| mesh.name == "ground")
+}
+
+#[test]
+#[ignore = "needs ../shared/scenes, which is not part of the repository"]
+fn a_ship_of_three_materials_and_external_buffers_gets_a_ground() {
+    let ship = scene("dutch_ship/dutch_ship_medium_1k.gltf");
+    assert!(has_ground(&ship));
+    assert_eq!(ship.triangle_count(), 69_162 + 2);
+    assert_eq!(ship.meshes.len(), 3 + 1);
+    // Wood is darker than white and redder than blue: the texture's mean was read.
+    assert!(ship.meshes.iter().any(|m| m.linear_color.x > 1.2 * m.linear_color.z && m.linear_color.x < 0.5));
+}
+
+#[test]
+#[ignore = "needs ../shared/scenes, which is not part of the repository"]
+fn a_town_in_one_binary_file_stands_on_its_own_streets() {
+    let town = scene("zdm2/zdm2.glb");
+    assert!(!has_ground(&town));
+    // 58,772 in the file; 1,146 have no area.
+    assert_eq!(town.triangle_count(), 57_626);
+}
