@@ -3,7 +3,7 @@
 
 use super::ASPECT;
 use crate::model::{Placement, load_asset, place};
-use crate::shapes::ground;
+use crate::shapes::cuboid;
 use crate::{Error, Scene};
 use glam::{DVec3, Vec3};
 use scumble_core::{Camera, Light};
@@ -21,7 +21,13 @@ pub fn yard(assets: &Path) -> Result<Scene, Error> {
         .map(|i| Placement::at((f64::from(i) - f64::from(PANELS - 1) / 2.0) * PANEL_PITCH, -1.6, 0.0))
         .collect();
 
-    let mut meshes = vec![ground("ground", DVec3::ZERO, 40.0, Vec3::new(0.50, 0.46, 0.38))];
+    // A terrace that ends behind the fence and in front of the camera: what lies beyond would only widen the light's view.
+    let mut meshes = vec![cuboid(
+        "terrace",
+        DVec3::new(-5.6, -0.15, -2.6),
+        DVec3::new(6.0, 0.0, 4.4),
+        Vec3::new(0.50, 0.46, 0.38),
+    )];
     meshes.extend(place(&fence, &panels));
     meshes.extend(place(&load_asset(assets, "childSwing")?, &[Placement::at(-1.7, 0.3, 0.35)]));
     meshes.extend(place(&load_asset(assets, "umbrella")?, &[Placement::at(1.7, 0.0, 0.0)]));
@@ -41,8 +47,8 @@ pub fn yard(assets: &Path) -> Result<Scene, Error> {
         },
         light: Light::Directional {
             direction: DVec3::new(0.42, -0.52, 0.75).normalize(),
-            half_angle: 2.0f64.to_radians(),
+            half_angle: 2.5f64.to_radians(),
         },
-        pcf_radius_world: 0.03,
+        pcf_radius_world: 0.06,
     })
 }
