@@ -14,8 +14,8 @@ pub fn stairwell(assets: &Path) -> Result<Scene, Error> {
     let plaster = Vec3::new(0.66, 0.63, 0.57);
     let mut meshes = vec![
         cuboid("floor", DVec3::new(-3.0, -0.1, -1.9), DVec3::new(4.4, 0.0, 3.6), Vec3::new(0.42, 0.36, 0.30)),
-        cuboid("back wall", DVec3::new(-3.0, 0.0, -2.0), DVec3::new(4.4, 6.0, -1.9), plaster),
-        cuboid("side wall", DVec3::new(-3.1, -0.1, -2.0), DVec3::new(-3.0, 6.0, 3.6), plaster),
+        cuboid("back wall", DVec3::new(-3.0, 0.0, -2.0), DVec3::new(4.4, 4.4, -1.9), plaster),
+        cuboid("side wall", DVec3::new(-3.1, -0.1, -2.0), DVec3::new(-3.0, 4.4, 3.6), plaster),
     ];
     meshes.extend(place(&load_asset(assets, "spiralStaircase")?, &[Placement::at(0.0, 0.0, 0.6)]));
 
@@ -24,8 +24,8 @@ pub fn stairwell(assets: &Path) -> Result<Scene, Error> {
         name: "stairwell".to_owned(),
         meshes,
         camera: Camera {
-            eye: DVec3::new(2.1, 2.3, 5.9),
-            target: DVec3::new(-0.45, 1.62, 0.0),
+            eye: DVec3::new(2.1, 3.0, 5.9),
+            target: DVec3::new(-0.45, 1.55, 0.0),
             up: DVec3::Y,
             vertical_fov: 0.70,
             aspect: ASPECT,
