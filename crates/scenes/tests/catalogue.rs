@@ -58,7 +58,8 @@ fn cameras_and_lights_are_in_range_and_the_camera_sees_the_middle() {
 #[test]
 fn models_stand_on_the_ground_and_have_the_size_of_things() {
     for scene in scenes() {
-        let is_stage = |name: &str| ["ground", "terrace", "floor", "stage", "wall"].iter().any(|part| name.contains(part));
+        let is_stage =
+            |name: &str| ["ground", "terrace", "floor", "stage", "wall"].iter().any(|part| name.contains(part));
         let mut models = scene.clone();
         models.meshes.retain(|mesh| !is_stage(&mesh.name));
         let bounds = models.bounds();

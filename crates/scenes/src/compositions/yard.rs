@@ -22,12 +22,8 @@ pub fn yard(assets: &Path) -> Result<Scene, Error> {
         .collect();
 
     // A terrace that ends behind the fence and in front of the camera: what lies beyond would only widen the light's view.
-    let mut meshes = vec![cuboid(
-        "terrace",
-        DVec3::new(-5.6, -0.15, -2.6),
-        DVec3::new(6.0, 0.0, 4.4),
-        Vec3::new(0.50, 0.46, 0.38),
-    )];
+    let mut meshes =
+        vec![cuboid("terrace", DVec3::new(-5.6, -0.15, -2.6), DVec3::new(6.0, 0.0, 4.4), Vec3::new(0.50, 0.46, 0.38))];
     meshes.extend(place(&fence, &panels));
     meshes.extend(place(&load_asset(assets, "childSwing")?, &[Placement::at(-1.7, 0.3, 0.35)]));
     meshes.extend(place(&load_asset(assets, "umbrella")?, &[Placement::at(1.7, 0.0, 0.0)]));
