@@ -53,7 +53,7 @@ fn cohort(people: u32, slope: f64, seed: u64) -> Result<Outcome, Error> {
 
     // The truth for 95 % of viewers at 10 % detection, by the observer's own function.
     let hidden = analysis.population.ratio(0.95, 0.10)?;
-    let seen = |p: f64| -(-p).ln_1p();
+    let seen = |p: f64| -(-p / (1.0 - median.lapse_probability)).ln_1p();
     let decades = (seen(analysis.population.detection_at_threshold) / seen(0.10)).log10();
     let hidden_log10 = RATIO.log10() + 1.644_853_627 * BETWEEN_SD + decades / slope;
     let mean_of_ratios = RATIO * (0.5 * (BETWEEN_SD * std::f64::consts::LN_10).powi(2)).exp();
@@ -79,24 +79,45 @@ fn main() -> Result<(), Error> {
     let mut arguments = std::env::args().skip(1);
     let mut next = |default: f64| arguments.next().and_then(|a| a.parse().ok()).unwrap_or(default);
     let (cohorts, people, slope) = (next(200.0) as u64, next(10.0) as u32, next(3.5));
-    let outcomes: Vec<Outcome> = (0..cohorts)
-        .into_par_iter()
-        .map(|seed| cohort(people, slope, seed))
-        .collect::<Result<_, _>>()?;
+    let outcomes: Vec<Outcome> =
+        (0..cohorts).into_par_iter().map(|seed| cohort(people, slope, seed)).collect::<Result<_, _>>()?;
 
     let count = outcomes.len() as f64;
     let mean = |value: fn(&Outcome) -> f64| outcomes.iter().map(value).sum::<f64>() / count;
-    let share = |holds: fn(&Outcome) -> bool| {
-        100.0 * outcomes.iter().filter(|outcome| holds(outcome)).count() as f64 / count
-    };
+    let share =
+        |holds: fn(&Outcome) -> bool| 100.0 * outcomes.iter().filter(|outcome| holds(outcome)).count() as f64 / count;
     let percent = |log10: f64| 100.0 * (10_f64.powf(log10) - 1.0);
     let sd = mean(|o| (o.log10_ratio - RATIO.log10()).powi(2)).sqrt();
-    println!("{cohorts} cohorts of {people} people, slope {slope}, {:.0} trials each", mean(|o| o.trials as f64) / f64::from(people));
-    println!("ratio: bias {:+.2} %, RMS error {:.4} log10, coverage {:.1} %", percent(mean(|o| o.log10_ratio) - RATIO.log10()), sd, share(|o| o.covers));
-    println!("worst condition: bias {:+.2} %, coverage {:.1} %", percent(mean(|o| o.worst_log10) - RATIO.log10()), share(|o| o.worst_covers));
-    println!("line through the origin: against 3.47 {:+.2} %, coverage of the mean ratio {:.1} %", 100.0 * (mean(|o| o.origin_slope) / RATIO - 1.0), share(|o| o.origin_covers));
-    println!("true null rejected at 5 %: exponent {:.1} %, intercept {:.1} %", share(|o| o.exponent_rejected), share(|o| o.intercept_rejected));
-    println!("95 % of viewers at 10 %: bias {:+.2} %, coverage {:.1} %", percent(mean(|o| o.hidden_log10_error)), share(|o| o.hidden_covers));
+    println!(
+        "{cohorts} cohorts of {people} people, slope {slope}, {:.0} trials each",
+        mean(|o| o.trials as f64) / f64::from(people)
+    );
+    println!(
+        "ratio: bias {:+.2} %, RMS error {:.4} log10, coverage {:.1} %",
+        percent(mean(|o| o.log10_ratio) - RATIO.log10()),
+        sd,
+        share(|o| o.covers)
+    );
+    println!(
+        "worst condition: bias {:+.2} %, coverage {:.1} %",
+        percent(mean(|o| o.worst_log10) - RATIO.log10()),
+        share(|o| o.worst_covers)
+    );
+    println!(
+        "line through the origin: against 3.47 {:+.2} %, coverage of the mean ratio {:.1} %",
+        100.0 * (mean(|o| o.origin_slope) / RATIO - 1.0),
+        share(|o| o.origin_covers)
+    );
+    println!(
+        "true null rejected at 5 %: exponent {:.1} %, intercept {:.1} %",
+        share(|o| o.exponent_rejected),
+        share(|o| o.intercept_rejected)
+    );
+    println!(
+        "95 % of viewers at 10 %: bias {:+.2} %, coverage {:.1} %",
+        percent(mean(|o| o.hidden_log10_error)),
+        share(|o| o.hidden_covers)
+    );
     println!(
         "thresholds: {:.2} % without, {:.2} % not converged",
         100.0 * mean(|o| o.without_threshold as f64 / o.thresholds as f64),

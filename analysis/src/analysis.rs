@@ -1,8 +1,7 @@
 //! The whole analysis: thresholds, every series, the worst of them, and the file for renderers.
 
 use scumble_core::{
-    ConditionEstimate, Estimate, FormTests, NullTest, PopulationPoint as FilePoint, Relation,
-    RelationFile, SCHEMA,
+    ConditionEstimate, Estimate, FormTests, NullTest, PopulationPoint as FilePoint, Relation, RelationFile, SCHEMA,
 };
 
 use crate::{
@@ -11,8 +10,7 @@ use crate::{
     people::Study,
     population::Population,
     series::{Series, pattern_name},
-    thresholds::{ConditionThreshold, lapse_of, thresholds_of},
-    weibull::Weibull,
+    thresholds::{ConditionThreshold, thresholds_of},
 };
 
 /// Name and version of this program, as `relation.json` carries it.
@@ -41,8 +39,7 @@ impl Analysis {
     /// and contrast, or no condition in which the experiment converged.
     pub fn of(study: &Study) -> Result<Self, Error> {
         let protocol = &study.protocol;
-        let thresholds: Vec<_> =
-            study.people.iter().flat_map(|person| thresholds_of(person, protocol)).collect();
+        let thresholds: Vec<_> = study.people.iter().flat_map(|person| thresholds_of(person, protocol)).collect();
         if !thresholds.iter().any(|entry| entry.converged) {
             return Err(Error::CannotFit(format!(
                 "none of {} conditions converged in any of {} people",
@@ -63,24 +60,19 @@ impl Analysis {
             }
         }
         let no_series = || Error::CannotFit("the protocol has no round".to_owned());
-        let Some(worst) = (0..series.len())
-            .max_by(|&a, &b| series[a].log10_ratio.mean.total_cmp(&series[b].log10_ratio.mean))
+        let Some(worst) =
+            (0..series.len()).max_by(|&a, &b| series[a].log10_ratio.mean.total_cmp(&series[b].log10_ratio.mean))
         else {
             return Err(refusal.unwrap_or_else(no_series));
         };
 
-        let psychometric = Weibull {
-            location: 0.0,
-            slope: protocol.slope_per_log10,
-            guess: protocol.guess_probability,
-            lapse: lapse_of(protocol),
-        };
-        let at_threshold = psychometric.x_at_correct(protocol.threshold_probability);
+        let guess = protocol.guess_probability;
         let population = Population {
             thresholds: series[worst].log10_ratio,
             measurement_variance: series[worst].measurement_variance(),
-            detection_at_threshold: at_threshold.map_or(f64::NAN, |x| psychometric.detection(x)),
+            detection_at_threshold: (protocol.threshold_probability - guess) / (1.0 - guess),
             slope: protocol.slope_per_log10,
+            blind_share: protocol.lapse_probability,
         };
         Ok(Self { thresholds, series, worst, population, exclusions })
     }
@@ -106,11 +98,7 @@ impl Analysis {
                 .map(|point| FilePoint {
                     viewers: point.viewers,
                     detection: point.detection,
-                    ratio: Estimate {
-                        value: point.ratio,
-                        standard_error: point.standard_error,
-                        ci95: point.ci95,
-                    },
+                    ratio: Estimate { value: point.ratio, standard_error: point.standard_error, ci95: point.ci95 },
                 })
                 .collect(),
             kernel: Some("disc".to_owned()),
@@ -139,16 +127,11 @@ impl Analysis {
 }
 
 fn ratio_of(series: &Series) -> Estimate {
-    Estimate {
-        value: series.ratio(),
-        standard_error: series.ratio_standard_error(),
-        ci95: series.ratio_ci95(),
-    }
+    Estimate { value: series.ratio(), standard_error: series.ratio_standard_error(), ci95: series.ratio_ci95() }
 }
 
 fn null_test(mean: &MeanOverPeople, null: f64) -> NullTest {
-    let estimate =
-        Estimate { value: mean.mean, standard_error: mean.standard_error, ci95: mean.ci95 };
+    let estimate = Estimate { value: mean.mean, standard_error: mean.standard_error, ci95: mean.ci95 };
     NullTest { estimate, null, p_value: mean.p_value(null) }
 }
 

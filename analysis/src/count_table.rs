@@ -74,11 +74,7 @@ pub fn read_count_table(path: &Path) -> Result<Vec<Count>, Error> {
 ///
 /// # Errors
 /// A guess or lapse rate out of range, or data that do not bound the function.
-pub fn fit_count_table(
-    counts: &[Count],
-    guess: f64,
-    lapse: Parameter,
-) -> Result<CountTableFit, Error> {
+pub fn fit_count_table(counts: &[Count], guess: f64, lapse: Parameter) -> Result<CountTableFit, Error> {
     let in_range = |name, value: f64, below: f64, allowed| {
         let good = (0.0..below).contains(&value);
         let refusal = || Error::Argument { name, value: value.to_string(), allowed };

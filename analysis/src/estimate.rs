@@ -46,13 +46,7 @@ impl MeanOverPeople {
             )));
         }
         let reach = student(people - 1)?.inverse_cdf(0.975) * standard_error;
-        Ok(Self {
-            mean,
-            standard_deviation,
-            standard_error,
-            ci95: [mean - reach, mean + reach],
-            people,
-        })
+        Ok(Self { mean, standard_deviation, standard_error, ci95: [mean - reach, mean + reach], people })
     }
 
     /// Two-sided p value of "the mean is `expected`".
@@ -63,8 +57,7 @@ impl MeanOverPeople {
 }
 
 fn student(degrees: usize) -> Result<StudentsT, Error> {
-    StudentsT::new(0.0, 1.0, degrees as f64)
-        .map_err(|reason| Error::CannotFit(format!("Student's t: {reason}")))
+    StudentsT::new(0.0, 1.0, degrees as f64).map_err(|reason| Error::CannotFit(format!("Student's t: {reason}")))
 }
 
 /// One point of a line: texel size and the radius at threshold, pixels.

@@ -2,6 +2,7 @@
 //! their geometric means, our line with its interval and the published line through the origin.
 
 use plotters::{coord::Shift, prelude::*};
+use scumble_stimuli::Pattern;
 
 use crate::{
     Error,
@@ -32,8 +33,7 @@ pub fn fit_figure(analysis: &Analysis) -> Result<String, Error> {
         let (panels, foot) = page.split_vertically(PANEL_PX.1);
         let limits = limits(analysis);
         for (panel, contrast) in panels.split_evenly((1, contrasts.len())).iter().zip(contrasts) {
-            let series: Vec<&Series> =
-                analysis.series.iter().filter(|series| series.contrast == contrast).collect();
+            let series: Vec<&Series> = analysis.series.iter().filter(|series| series.contrast == contrast).collect();
             draw_panel(panel, contrast, &series, limits)?;
         }
         draw_key(&foot)
@@ -93,11 +93,16 @@ fn draw_panel(
         let dashes = line(series.origin_line.slope);
         chart.draw_series(DashedLineSeries::new(dashes, 6, 5, color.stroke_width(1)))?;
 
-        // People, side by side; then their geometric mean with its interval.
+        // People, side by side; then their geometric mean with its interval. The patterns stand left
+        // and right of their texel size.
         let people = series.people.len() as f64;
-        let shift_px = series.texels_px.first().copied().unwrap_or(0.0) * 0.22;
+        let spread_px = series.texels_px.first().copied().unwrap_or(0.0) * 0.09;
+        let aside_px = match series.pattern {
+            Pattern::Stair => -spread_px,
+            Pattern::Step => spread_px,
+        };
         for (index, person) in series.people.iter().enumerate() {
-            let shift = shift_px * (2.0 * (index as f64 + 0.5) / people - 1.0);
+            let shift = aside_px + spread_px * (2.0 * (index as f64 + 0.5) / people - 1.0);
             chart.draw_series(person.points.iter().map(|point| {
                 let place = (point.texel_px + shift, point.radius_px);
                 Circle::new(place, 2, color.mix(0.35).filled())
@@ -105,10 +110,11 @@ fn draw_panel(
         }
         for &texel_px in &series.texels_px {
             let Some((mean, ends)) = radius_over_people(series, texel_px) else { continue };
-            let bar = [(texel_px, ends[0]), (texel_px, ends[1])];
+            let x = texel_px + aside_px;
+            let bar = [(x, ends[0]), (x, ends[1])];
             chart.draw_series([PathElement::new(bar, color.stroke_width(2))])?;
-            chart.draw_series([Circle::new((texel_px, mean), 5, WHITE.filled())])?;
-            chart.draw_series([Circle::new((texel_px, mean), 5, color.stroke_width(2))])?;
+            chart.draw_series([Circle::new((x, mean), 5, WHITE.filled())])?;
+            chart.draw_series([Circle::new((x, mean), 5, color.stroke_width(2))])?;
         }
         let label = format!("{} {:.2}", pattern_name(series.pattern), series.ratio());
         let published = format!("line {:.2}", series.origin_line.slope);
@@ -138,10 +144,10 @@ fn radius_over_people(series: &Series, texel_px: f64) -> Option<(f64, [f64; 2])>
 /// What the marks mean, below the panels.
 fn draw_key(foot: &Area<'_, '_>) -> Result<(), DrawError> {
     let lines = [
-        "solid: radius = ratio x texel, ratio of the median person, with 95 % interval.   \
-         dashed: line through the origin of the mean radii (Kreuzer 2017).",
-        "ring: geometric mean over people with 95 % interval.   dots: people.   \
-         Above a line its texels are hidden.",
+        "solid: ratio of the median person with 95 % interval · dashed: line through the origin \
+         of the mean radii (Kreuzer 2017)",
+        "ring: geometric mean over people with 95 % interval · dots: people · above a line its \
+         texels are hidden",
     ];
     for (line, y) in lines.iter().zip([6, 28]) {
         foot.draw(&Text::new(*line, (22, y), text(14, GREY)))?;

@@ -1,2 +1,197 @@
-//! Not written yet.
-fn main() {}
+//! The command line of the analysis: each command reads its input, calls the library, prints.
+
+use std::{
+    io::stdout,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+use anyhow::Context;
+use clap::{Parser, Subcommand};
+use indicatif::{ProgressBar, ProgressStyle};
+use scumble_analysis::{
+    Parameter, Simulation, Study, fit_count_table, fit_study, read_count_table, read_quest_config, read_responses,
+    write_summaries,
+};
+use scumble_psychophysics::{ObserverParameters, Protocol};
+
+/// From the sessions of a study to relation.json, the file that a renderer reads.
+#[derive(Parser)]
+#[command(name = "scumble-analysis", version, arg_required_else_help = true)]
+#[command(after_help = "Example, a whole study without people:
+  scumble-analysis simulate --out target/sessions --observers 12 --seed 1
+  scumble-analysis fit target/sessions --out target/fit
+  then open target/fit/report.html
+
+Exit status 0 only when the work was done; 1 with one line that names the reason; 2 for a wrong
+command line.")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Fits the relation to sessions and writes relation.json, report.html, tables and figures.
+    #[command(after_help = "Examples:
+  scumble-analysis fit data --out fit              every session in the folder data
+  scumble-analysis fit data/p01 data/p02 --out fit two sessions
+
+Writes into OUT: relation.json, report.html, trials.csv, thresholds.csv, fit.svg, staircases.svg.
+Running it again replaces these files; a file of another kind under one of the names is refused.")]
+    Fit {
+        /// A session, or a folder with sessions directly in it.
+        #[arg(required = true, value_name = "DIR")]
+        sessions: Vec<PathBuf>,
+        /// Folder for the results; made where it does not exist.
+        #[arg(long)]
+        out: PathBuf,
+    },
+    /// Lets simulated observers run the real experiment and writes their sessions.
+    #[command(after_help = "Examples:
+  scumble-analysis simulate --out sessions --observers 12 --seed 1
+  scumble-analysis simulate --out sessions --observers 40 --seed 2 --ratio 2.5 --between-sd 0.15
+
+Equal arguments give equal files. A session that exists is never overwritten.")]
+    Simulate {
+        /// Folder in which each observer's session gets a folder.
+        #[arg(long)]
+        out: PathBuf,
+        /// Number of observers, 1 to 9999.
+        #[arg(long)]
+        observers: u32,
+        /// Everything random follows from it.
+        #[arg(long)]
+        seed: u64,
+        /// What the observers are asked.
+        #[arg(long, default_value = "two-alternative")]
+        protocol: String,
+        /// The median observer's threshold for the step at 100 % contrast, radius in texels.
+        #[arg(long, default_value_t = 3.47)]
+        ratio: f64,
+        /// Standard deviation between observers, log10 of the ratio.
+        #[arg(long, default_value_t = 0.1)]
+        between_sd: f64,
+        /// Share of trials answered blindly.
+        #[arg(long, default_value_t = 0.01)]
+        lapse: f64,
+    },
+    /// Runs QUEST over a table of answers and prints its summaries as CSV.
+    #[command(after_help = "Example:
+  echo '{\"tGuess\": -0.5, \"tGuessSd\": 0.6, \"pThreshold\": 0.82, \"beta\": 3.5, \"delta\": 0.01, \"gamma\": 0.5}' > config.json
+  printf 'intensity,response\\n-0.4,1\\n-0.5,0\\n' > answers.csv
+  scumble-analysis quest --config config.json --responses answers.csv
+
+Row 0 is the prior, row i the posterior after answer i. The columns config and sequence are the
+names of the files.")]
+    Quest {
+        /// JSON with tGuess, tGuessSd, pThreshold, beta, delta, gamma; grain and range are optional.
+        #[arg(long)]
+        config: PathBuf,
+        /// CSV with the columns intensity,response; a response is 0 or 1.
+        #[arg(long)]
+        responses: PathBuf,
+    },
+    /// Fits a Weibull function to a table of correct answers and prints JSON.
+    #[command(after_help = "Example:
+  printf 'level,n_correct,n_total\\n0.5,26,50\\n1,33,50\\n2,45,50\\n4,49,50\\n' > counts.csv
+  scumble-analysis threshold --data counts.csv --guess 0.5 --lapse 0.01
+
+The function is p(x) = guess + (1 - guess - lapse)(1 - exp(-10^(slope_beta (x - threshold_t)))) with
+x = log10(level). x82 is the x of 82 % correct, nll the negative log likelihood.")]
+    Threshold {
+        /// CSV with the columns level,n_correct,n_total.
+        #[arg(long)]
+        data: PathBuf,
+        /// Probability of a correct answer by guessing.
+        #[arg(long, default_value_t = 0.5)]
+        guess: f64,
+        /// Lapse rate, or the word free.
+        #[arg(long, default_value = "0.01", value_parser = lapse)]
+        lapse: Parameter,
+    },
+}
+
+fn lapse(text: &str) -> Result<Parameter, String> {
+    if text == "free" {
+        return Ok(Parameter::Free);
+    }
+    let value = text.parse().map_err(|_| "allowed is a number or the word free".to_owned())?;
+    Ok(Parameter::Fixed(value))
+}
+
+fn main() -> ExitCode {
+    match run(Arguments::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(command: Command) -> anyhow::Result<()> {
+    match command {
+        Command::Fit { sessions, out } => fit(&sessions, &out),
+        Command::Simulate { out, observers, seed, protocol, ratio, between_sd, lapse } => {
+            let median = ObserverParameters { ratio, lapse_probability: lapse, ..ObserverParameters::default() };
+            let protocol = Protocol::named(&protocol)?;
+            let between_sd_log10 = between_sd;
+            simulate(&Simulation { protocol, observers, seed, median, between_sd_log10 }, &out)
+        }
+        Command::Quest { config, responses } => {
+            let names = [&config, &responses].map(|path| stem(path));
+            let (config, table) = (read_quest_config(&config)?, read_responses(&responses)?);
+            Ok(write_summaries(config, &table, [&names[0], &names[1]], stdout().lock())?)
+        }
+        Command::Threshold { data, guess, lapse } => {
+            let counts = read_count_table(&data)?;
+            let place = || data.display().to_string();
+            let fitted = fit_count_table(&counts, guess, lapse).with_context(place)?;
+            println!("{}", serde_json::to_string_pretty(&fitted)?);
+            Ok(())
+        }
+    }
+}
+
+/// Prints the result and where the files are; notices go to the error stream.
+fn fit(sessions: &[PathBuf], out: &Path) -> anyhow::Result<()> {
+    let study = Study::read(sessions)?;
+    for notice in &study.notices {
+        eprintln!("notice: {notice}");
+    }
+    let analysis = fit_study(&study, out)?;
+    for exclusion in &analysis.exclusions {
+        eprintln!("notice: {exclusion}");
+    }
+    println!("people     {}", study.people.len());
+    println!("trials     {}", study.trial_count());
+    for (index, series) in analysis.series.iter().enumerate() {
+        let [low, high] = series.ratio_ci95();
+        let mark = if index == analysis.worst { "  <- relation.json" } else { "" };
+        println!(
+            "{:<22} {:.2} texels, 95 % {low:.2} to {high:.2}; line through the origin {:.2}{mark}",
+            series.name(),
+            series.ratio(),
+            series.origin_line.slope,
+        );
+    }
+    println!("wrote      {}", out.join("report.html").display());
+    Ok(())
+}
+
+/// Writes the sessions behind a progress bar, which hides itself where nobody watches.
+fn simulate(simulation: &Simulation, out: &Path) -> anyhow::Result<()> {
+    let style = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} {eta}")?;
+    let bar = ProgressBar::new(simulation.observers.into()).with_style(style);
+    bar.set_message("observers");
+    let directories = simulation.write(out, || bar.inc(1))?;
+    bar.finish_and_clear();
+    println!("wrote {} sessions into {}", directories.len(), out.display());
+    Ok(())
+}
+
+/// A file's name without folder and ending.
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+}

@@ -127,7 +127,8 @@ fn best_of_grid(counts: &[Count], model: &Model) -> Weibull {
     let steps = ((highest - lowest) / 0.05).ceil().min(2000.0);
     let slopes = candidates(model.slope, &[1.0, 2.0, 3.5, 6.0, 12.0]);
     let lapses = candidates(model.lapse, &[0.001, 0.02, 0.08]);
-    let mut best = (f64::NEG_INFINITY, Weibull { location: lowest, slope: slopes[0], guess: model.guess, lapse: lapses[0] });
+    let mut best =
+        (f64::NEG_INFINITY, Weibull { location: lowest, slope: slopes[0], guess: model.guess, lapse: lapses[0] });
     for step in 0..=steps as usize {
         for &slope in &slopes {
             for &lapse in &lapses {
@@ -159,7 +160,8 @@ fn climb(counts: &[Count], start: Weibull, free: [bool; 3]) -> Weibull {
         let (gradient, information) = derivatives(counts, &weibull, free);
         let scale = information.diagonal().map(|curvature| curvature.abs().max(1e-9));
         let damped = &information + DMatrix::from_diagonal(&(scale * damping));
-        let candidate = damped.cholesky().map(|factor| factor.solve(&gradient)).and_then(|step| moved(weibull, &step, free));
+        let candidate =
+            damped.cholesky().map(|factor| factor.solve(&gradient)).and_then(|step| moved(weibull, &step, free));
         let reached = candidate.map_or(f64::NEG_INFINITY, |candidate| log_likelihood(counts, &candidate));
         match candidate {
             Some(candidate) if reached >= likelihood => {

@@ -12,9 +12,7 @@ use std::{
 
 use rayon::prelude::*;
 use scumble_core::SessionHash;
-use scumble_psychophysics::{
-    Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Session, read_session,
-};
+use scumble_psychophysics::{Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Session, read_session};
 use sha2::{Digest, Sha256};
 
 use crate::Error;
@@ -156,8 +154,7 @@ pub(crate) fn directory_name(directory: &Path) -> String {
 
 /// `path` itself where it holds a session, else the folders directly below it that do.
 fn session_directories(path: &Path) -> Result<Vec<PathBuf>, Error> {
-    let is_session =
-        |path: &Path| path.join(HEADER_FILE).exists() || path.join(EVENTS_FILE).exists();
+    let is_session = |path: &Path| path.join(HEADER_FILE).exists() || path.join(EVENTS_FILE).exists();
     let path = path.canonicalize().map_err(Error::io(path))?;
     if is_session(&path) {
         return Ok(vec![path]);

@@ -1,10 +1,12 @@
 //! From the median person's threshold to the ratio that hides the texels from most viewers.
 //!
-//! `log10 c(v, d) = m + z(v) s + log10(w(d0) / w(d)) / b` with `w(d) = -ln(1 - d)`.
+//! `log10 c(v, d) = m + z(v) s + log10(w(d0) / w(d)) / b` with `w(d) = -ln(1 - d / (1 - e))`.
 //!
 //! `v` share of viewers, `d` probability that one of them sees the artifact on a trial, `m` mean
-//! log10 ratio at the threshold, `d0` detection at the threshold (0.65 at 82 % correct), `s`
-//! standard deviation between people, `z` normal quantile, `b` slope of the psychometric function.
+//! log10 ratio at the threshold, `d0` detection at the threshold (0.64 at 82 % correct), `s`
+//! standard deviation between people, `z` normal quantile, `b` slope of the psychometric function,
+//! `e` share of trials on which a person does not look. Detection counts those trials as unseen, so that
+//! `d = (p - guess) / (1 - guess)` of the answers that are correct.
 //!
 //! `s^2 = S^2 - V`: the variance of the people's means less the mean variance `V` of their
 //! measurement errors, at least 0. Interval: the limits of the three terms are combined by MOVER
@@ -45,6 +47,8 @@ pub struct Population {
     pub detection_at_threshold: f64,
     /// Slope of the psychometric function, per decade.
     pub slope: f64,
+    /// Share of trials answered blindly.
+    pub blind_share: f64,
 }
 
 /// The ratio that hides the artifact from `viewers` at `detection`.
@@ -74,8 +78,8 @@ impl Population {
     /// Never for a [`MeanOverPeople`] of at least two people.
     pub fn between_sd_ci95(&self) -> Result<[f64; 2], Error> {
         let degrees = (self.thresholds.people - 1) as f64;
-        let chi_squared = ChiSquared::new(degrees)
-            .map_err(|reason| Error::CannotFit(format!("chi-squared: {reason}")))?;
+        let chi_squared =
+            ChiSquared::new(degrees).map_err(|reason| Error::CannotFit(format!("chi-squared: {reason}")))?;
         let squares = degrees * self.thresholds.standard_deviation.powi(2);
         let limit = |quantile| {
             let variance = squares / chi_squared.inverse_cdf(quantile);
@@ -90,9 +94,11 @@ impl Population {
     /// Names the argument that is out of range.
     pub fn ratio(&self, viewers: f64, detection: f64) -> Result<PopulationPoint, Error> {
         check("viewers", viewers, (0.5..1.0).contains(&viewers), "at least 0.5 and below 1")?;
-        check("detection", detection, detection > 0.0 && detection < 1.0, "above 0 and below 1")?;
+        let seeing = 1.0 - self.blind_share;
+        let allowed = "above 0 and below the share of trials that are looked at";
+        check("detection", detection, detection > 0.0 && detection < seeing, allowed)?;
         let z = Normal::standard().inverse_cdf(viewers);
-        let seen = |probability: f64| -(-probability).ln_1p();
+        let seen = |probability: f64| -(-probability / seeing).ln_1p();
         let decades = (seen(self.detection_at_threshold) / seen(detection)).log10();
         let shifts = SLOPE_CI95.map(|factor| decades / (self.slope * factor));
 
@@ -103,9 +109,8 @@ impl Population {
 
         let terms = [median, spread, shift];
         let middle: f64 = terms.iter().map(|term| term[0]).sum();
-        let reach = |limit: usize| -> f64 {
-            terms.iter().map(|term| (term[limit] - term[0]).powi(2)).sum::<f64>().sqrt()
-        };
+        let reach =
+            |limit: usize| -> f64 { terms.iter().map(|term| (term[limit] - term[0]).powi(2)).sum::<f64>().sqrt() };
         let (below, above) = (reach(1), reach(2));
         let ratio = 10_f64.powf(middle);
         Ok(PopulationPoint {
@@ -148,14 +153,14 @@ mod tests {
     /// Ten people with the mean log10 3.47 and the standard deviation 0.1 exactly.
     fn population(measurement_variance: f64) -> Population {
         let offset = 0.1 * (9.0_f64 / 10.0).sqrt();
-        let values: Vec<f64> = (0..10)
-            .map(|person| 3.47_f64.log10() + if person % 2 == 0 { offset } else { -offset })
-            .collect();
+        let values: Vec<f64> =
+            (0..10).map(|person| 3.47_f64.log10() + if person % 2 == 0 { offset } else { -offset }).collect();
         Population {
             thresholds: MeanOverPeople::of(&values).unwrap(),
             measurement_variance,
             detection_at_threshold: 0.64,
             slope: 3.5,
+            blind_share: 0.01,
         }
     }
 

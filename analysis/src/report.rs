@@ -24,12 +24,7 @@ const HEAD: &str = include_str!("report.html");
 ///
 /// # Errors
 /// Those of the population curve.
-pub fn report_html(
-    study: &Study,
-    analysis: &Analysis,
-    fit: &str,
-    staircases: &str,
-) -> Result<String, Error> {
+pub fn report_html(study: &Study, analysis: &Analysis, fit: &str, staircases: &str) -> Result<String, Error> {
     let mut page = HEAD.to_owned();
     page += &result(study, analysis);
     page += &format!("<h2>Thresholds and the two lines</h2>\n{fit}\n");
@@ -51,8 +46,10 @@ fn result(study: &Study, analysis: &Analysis) -> String {
     let [low, high] = worst.ratio_ci95();
     let who = if study.is_simulated() { "simulated people" } else { "people" };
     let simulated = match study.is_simulated() {
-        true => "<p class=\"notice\">Every answer comes from a <strong>simulated</strong> observer. \
-                 This page shows that the method works, not what people see.</p>\n",
+        true => {
+            "<p class=\"notice\">Every answer comes from a <strong>simulated</strong> observer. \
+                 This page shows that the method works, not what people see.</p>\n"
+        }
         false => "",
     };
     format!(
@@ -75,9 +72,9 @@ fn conditions(analysis: &Analysis) -> String {
     for (index, series) in analysis.series.iter().enumerate() {
         let class = if index == analysis.worst { " class=\"worst\"" } else { "" };
         let line = &series.origin_line;
-        let line_interval = line.over_people.map_or("a person lacks a size".to_owned(), |mean| {
-            format!("{:.2} to {:.2}", mean.ci95[0], mean.ci95[1])
-        });
+        let line_interval = line
+            .over_people
+            .map_or("a person lacks a size".to_owned(), |mean| format!("{:.2} to {:.2}", mean.ci95[0], mean.ci95[1]));
         let [low, high] = series.ratio_ci95();
         _ = writeln!(
             rows,
@@ -134,9 +131,8 @@ fn population(analysis: &Analysis) -> Result<String, Error> {
         }
         rows += "</tr>\n";
     }
-    let header: String = DETECTIONS
-        .map(|d| format!("<th>seen on at most {:.0} %</th><th>95 %</th>", d * 100.0))
-        .concat();
+    let header: String =
+        DETECTIONS.map(|d| format!("<th>seen on at most {:.0} %</th><th>95 %</th>", d * 100.0)).concat();
     let [low, high] = population.between_sd_ci95()?;
     Ok(format!(
         "<h2>Hidden from whom?</h2>\n<p>The ratio that hides the texels from a share of the viewers, \
@@ -156,8 +152,7 @@ fn population(analysis: &Analysis) -> Result<String, Error> {
 fn people(analysis: &Analysis) -> String {
     let mut codes: Vec<&str> = analysis.thresholds.iter().map(|t| t.person.as_str()).collect();
     codes.dedup();
-    let header: String =
-        analysis.series.iter().map(|series| format!("<th>{}</th>", series.name())).collect();
+    let header: String = analysis.series.iter().map(|series| format!("<th>{}</th>", series.name())).collect();
     let mut rows = String::new();
     for code in codes {
         let own = analysis.thresholds.iter().filter(|entry| entry.person == code);
@@ -190,8 +185,7 @@ fn left_out(study: &Study, analysis: &Analysis) -> String {
                 threshold.</p>\n"
             .to_owned();
     }
-    let items: String =
-        sentences.iter().map(|sentence| format!("<li>{}</li>\n", escaped(sentence))).collect();
+    let items: String = sentences.iter().map(|sentence| format!("<li>{}</li>\n", escaped(sentence))).collect();
     format!(
         "<h2>Left out</h2>\n<ul>\n{items}</ul>\n<p class=\"note\">A condition without a threshold \
          of its own still adds its answers to the person's ratio.</p>\n"
@@ -223,9 +217,7 @@ fn sources(study: &Study) -> String {
     let rows: String = study
         .session_hashes()
         .iter()
-        .map(|hash| {
-            format!("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escaped(&hash.session), hash.sha256)
-        })
+        .map(|hash| format!("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escaped(&hash.session), hash.sha256))
         .collect();
     format!(
         "<h2>Sessions</h2>\n<details><summary>{} sessions with their SHA-256</summary>\n<div \

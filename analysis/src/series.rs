@@ -71,23 +71,14 @@ impl Series {
     ///
     /// # Errors
     /// Fewer than two people have a ratio here.
-    pub fn of(
-        pattern: Pattern,
-        contrast: f64,
-        people: &[Person],
-        protocol: &Protocol,
-    ) -> Result<Self, Error> {
+    pub fn of(pattern: Pattern, contrast: f64, people: &[Person], protocol: &Protocol) -> Result<Self, Error> {
         let mut texels_px = protocol.texels_px.clone();
         texels_px.sort_by(f64::total_cmp);
-        let people: Vec<_> = people
-            .iter()
-            .filter_map(|person| person_in_series(pattern, contrast, person, protocol))
-            .collect();
+        let people: Vec<_> =
+            people.iter().filter_map(|person| person_in_series(pattern, contrast, person, protocol)).collect();
         let ratios: Vec<f64> = people.iter().map(|person| person.log10_ratio).collect();
         let log10_ratio = MeanOverPeople::of(&ratios).map_err(|reason| match reason {
-            Error::CannotFit(reason) => {
-                Error::CannotFit(format!("{}: {reason}", series_name(pattern, contrast)))
-            }
+            Error::CannotFit(reason) => Error::CannotFit(format!("{}: {reason}", series_name(pattern, contrast))),
             other => other,
         })?;
         let over_people = |statistic: fn(&[SizePoint]) -> Option<f64>| {
@@ -146,15 +137,8 @@ pub(crate) fn pattern_name(pattern: Pattern) -> &'static str {
     }
 }
 
-fn person_in_series(
-    pattern: Pattern,
-    contrast: f64,
-    person: &Person,
-    protocol: &Protocol,
-) -> Option<PersonInSeries> {
-    let is_here = |track: &&Track| {
-        track.condition.pattern == pattern && track.condition.contrast == contrast
-    };
+fn person_in_series(pattern: Pattern, contrast: f64, person: &Person, protocol: &Protocol) -> Option<PersonInSeries> {
+    let is_here = |track: &&Track| track.condition.pattern == pattern && track.condition.contrast == contrast;
     let joint = joint_threshold(person.tracks.iter().filter(is_here), protocol).ok()?;
     let points = thresholds_of(person, protocol)
         .iter()

@@ -10,8 +10,7 @@ use std::path::{Path, PathBuf};
 use jiff::Timestamp;
 use rayon::prelude::*;
 use scumble_psychophysics::{
-    Event, Experiment, Moment, ObserverParameters, Population, Protocol, SessionHeader,
-    SessionWriter, Software, Stage,
+    Event, Experiment, Moment, ObserverParameters, Population, Protocol, SessionHeader, SessionWriter, Software, Stage,
 };
 
 use crate::{
@@ -61,11 +60,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Those of the experiment and of `record`.
-    pub fn run(
-        &self,
-        index: u32,
-        mut record: impl FnMut(&Event) -> Result<(), Error>,
-    ) -> Result<Experiment, Error> {
+    pub fn run(&self, index: u32, mut record: impl FnMut(&Event) -> Result<(), Error>) -> Result<Experiment, Error> {
         let observer = self.population().person(index)?;
         let seed = self.population().session_seed(index);
         let mut experiment = Experiment::new(self.protocol.clone(), seed)?;
@@ -123,11 +118,7 @@ impl Simulation {
     }
 
     fn population(&self) -> Population {
-        Population {
-            median: self.median,
-            between_sd_log10: self.between_sd_log10,
-            seed: self.seed,
-        }
+        Population { median: self.median, between_sd_log10: self.between_sd_log10, seed: self.seed }
     }
 
     fn header(&self, index: u32) -> Result<SessionHeader, Error> {

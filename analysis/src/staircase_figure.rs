@@ -49,11 +49,8 @@ pub fn staircase_figure(person: &Person, protocol: &Protocol) -> Result<String, 
 /// Smallest and largest ratio of a person's trials, widened to the next power of two, and the number
 /// of trials of the longest track: the axes that all panels share.
 fn limits(person: &Person) -> ((f64, f64), f64) {
-    let exponents = person
-        .tracks
-        .iter()
-        .flat_map(|track| &track.responses)
-        .map(|(x, _)| -x / std::f64::consts::LOG10_2);
+    let exponents =
+        person.tracks.iter().flat_map(|track| &track.responses).map(|(x, _)| -x / std::f64::consts::LOG10_2);
     let (low, high) = exponents.fold((0.0_f64, 3.0_f64), |(low, high), e| (low.min(e), high.max(e)));
     let longest = person.tracks.iter().map(|track| track.responses.len()).max().unwrap_or(0);
     ((low.floor().exp2(), high.ceil().exp2()), longest as f64)
@@ -91,9 +88,8 @@ fn draw_panel(
     for (index, (track, threshold)) in tracks.iter().enumerate() {
         let color = SIZES[index % SIZES.len()];
         let shown = track.responses.iter().zip(1..);
-        let places: Vec<((f64, f64), bool)> = shown
-            .map(|(&(x, correct), trial)| ((f64::from(trial), 10_f64.powf(-x)), correct))
-            .collect();
+        let places: Vec<((f64, f64), bool)> =
+            shown.map(|(&(x, correct), trial)| ((f64::from(trial), 10_f64.powf(-x)), correct)).collect();
         let path = places.iter().map(|(place, _)| *place);
         chart.draw_series(LineSeries::new(path, color.mix(0.6).stroke_width(1)))?;
         for (place, correct) in places {
@@ -114,11 +110,7 @@ fn draw_panel(
 }
 
 /// Title, texel sizes and marks above the panels.
-fn draw_key(
-    head: &DrawingArea<SVGBackend<'_>, Shift>,
-    title: &str,
-    protocol: &Protocol,
-) -> Result<(), DrawError> {
+fn draw_key(head: &DrawingArea<SVGBackend<'_>, Shift>, title: &str, protocol: &Protocol) -> Result<(), DrawError> {
     head.draw(&Text::new(title.to_owned(), (22, 10), text(20, INK)))?;
     let mut x = 28;
     for (texel_px, color) in protocol.texels_px.iter().zip(SIZES) {
@@ -126,7 +118,7 @@ fn draw_key(
         head.draw(&Text::new(format!("texel {texel_px} px"), (x + 11, 43), text(14, INK)))?;
         x += 105;
     }
-    let marks = "filled: correct   hollow: wrong   triangle: threshold with one standard error";
+    let marks = "filled: correct · hollow: wrong · triangle: threshold with one standard error";
     head.draw(&Text::new(marks, (x + 10, 43), text(14, GREY)))?;
     Ok(())
 }

@@ -67,9 +67,11 @@ pub fn trials_csv(study: &Study) -> Result<String, Error> {
     let rows = study.sessions.iter().flat_map(|loaded| {
         let session = &loaded.session;
         let name = directory_name(&session.directory);
-        session.events.iter().filter_map(|event| event.measured()).map(move |answered| {
-            (session.header.participant.as_str(), name.clone(), answered)
-        })
+        session
+            .events
+            .iter()
+            .filter_map(|event| event.measured())
+            .map(move |answered| (session.header.participant.as_str(), name.clone(), answered))
     });
     let mut writer = csv::Writer::from_writer(Vec::new());
     for (person, session, answered) in rows {

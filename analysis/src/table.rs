@@ -36,9 +36,7 @@ pub(crate) fn read_rows<Row: DeserializeOwned>(
             Err(error) => return Err(complaint(line, csv_reason(&error))),
         }
         let line = record.position().map_or(line, csv::Position::line);
-        let row = record
-            .deserialize(Some(&found))
-            .map_err(|error| complaint(line, csv_reason(&error)))?;
+        let row = record.deserialize(Some(&found)).map_err(|error| complaint(line, csv_reason(&error)))?;
         take(row).map_err(|reason| complaint(line, reason))?;
     }
     if rows == 0 {

@@ -70,6 +70,9 @@ mod tests {
 
     #[test]
     fn the_threshold_of_quest_is_its_closed_form() {
-        assert!((QUEST.x_at_correct(0.82).unwrap() - 0.004839437105186521).abs() < 1e-12, "xThreshold_analytic of the QUEST tables");
+        assert!(
+            (QUEST.x_at_correct(0.82).unwrap() - 0.004839437105186521).abs() < 1e-12,
+            "xThreshold_analytic of the QUEST tables"
+        );
     }
 }

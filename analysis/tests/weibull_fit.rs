@@ -5,9 +5,7 @@
 
 use std::{io::Write, path::Path};
 
-use scumble_analysis::{
-    Count, Model, Parameter, Unidentified, Weibull, fit, fit_count_table, read_count_table,
-};
+use scumble_analysis::{Count, Model, Parameter, Unidentified, Weibull, fit, fit_count_table, read_count_table};
 
 fn data(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
@@ -46,9 +44,7 @@ fn a_free_lapse_rate_is_at_least_as_likely_and_stays_in_its_range() {
 
 #[test]
 fn exact_expected_counts_give_back_the_function_that_made_them() {
-    for (location, slope, guess, lapse) in
-        [(-0.5, 3.5, 0.5, 0.005), (1.2, 1.5, 0.0, 0.02), (0.0, 8.0, 0.25, 0.0)]
-    {
+    for (location, slope, guess, lapse) in [(-0.5, 3.5, 0.5, 0.005), (1.2, 1.5, 0.0, 0.02), (0.0, 8.0, 0.25, 0.0)] {
         let truth = Weibull { location, slope, guess, lapse };
         let counts: Vec<Count> = (-20..=20)
             .map(|step| location + f64::from(step) * 0.05)
@@ -65,8 +61,7 @@ fn exact_expected_counts_give_back_the_function_that_made_them() {
 #[test]
 fn the_estimate_moves_with_the_levels() {
     let counts = read_count_table(&data("weibull_fit_data.csv")).unwrap();
-    let shifted: Vec<Count> =
-        counts.iter().map(|count| Count { x: count.x + 3.0, ..*count }).collect();
+    let shifted: Vec<Count> = counts.iter().map(|count| Count { x: count.x + 3.0, ..*count }).collect();
     let here = fit_count_table(&counts, 0.5, Parameter::Fixed(0.01)).unwrap();
     let there = fit_count_table(&shifted, 0.5, Parameter::Fixed(0.01)).unwrap();
     assert!((there.threshold_t - here.threshold_t - 3.0).abs() < 1e-9);
@@ -76,11 +71,7 @@ fn the_estimate_moves_with_the_levels() {
 #[test]
 fn data_that_bound_nothing_are_refused_with_the_reason() {
     let row = |x, correct, total| Count { x, correct, total };
-    let fixed = Model {
-        guess: 0.5,
-        lapse: Parameter::Fixed(0.005),
-        slope: Parameter::Fixed(3.5),
-    };
+    let fixed = Model { guess: 0.5, lapse: Parameter::Fixed(0.005), slope: Parameter::Fixed(3.5) };
     let free = Model { slope: Parameter::Free, ..fixed };
     let cases = [
         (vec![], fixed, Unidentified::NoAnswers),
@@ -97,10 +88,7 @@ fn data_that_bound_nothing_are_refused_with_the_reason() {
 
 #[test]
 fn a_jump_from_guessing_to_certainty_has_no_slope() {
-    let counts = [
-        Count { x: 0.0, correct: 50.0, total: 100.0 },
-        Count { x: 1.0, correct: 100.0, total: 100.0 },
-    ];
+    let counts = [Count { x: 0.0, correct: 50.0, total: 100.0 }, Count { x: 1.0, correct: 100.0, total: 100.0 }];
     let refusal = fit_count_table(&counts, 0.5, Parameter::Fixed(0.0)).unwrap_err().to_string();
     assert!(refusal.contains("do not bound the slope"), "{refusal}");
 }

@@ -1,0 +1,60 @@
+//! Everything that the command `fit` writes, from one study.
+
+use std::path::Path;
+
+use scumble_core::Relation;
+use scumble_psychophysics::HEADER_FILE;
+
+use crate::{
+    Error,
+    analysis::Analysis,
+    figure::FIGURE_MARK,
+    fit_figure::{FIT_FIGURE, fit_figure},
+    outputs::{Output, write_outputs},
+    people::Study,
+    report::{REPORT, REPORT_MARK, report_html},
+    staircase_figure::{STAIRCASE_FIGURE, staircase_figure},
+    study_tables::{THRESHOLDS_MARK, THRESHOLDS_TABLE, TRIALS_MARK, TRIALS_TABLE, thresholds_csv, trials_csv},
+};
+
+/// File name of the relation.
+pub const RELATION: &str = "relation.json";
+
+/// Analyses a study and writes relation, report, tables and figures into `folder`; earlier outputs
+/// are replaced, other files are not.
+///
+/// # Errors
+/// Data that carry no fit (nothing is written then), a file in the way, or a relation that a
+/// renderer would refuse to read.
+pub fn fit_study(study: &Study, folder: &Path) -> Result<Analysis, Error> {
+    if folder.join(HEADER_FILE).exists() {
+        let reason = "is a session; allowed is a folder for results".to_owned();
+        return Err(Error::File { path: folder.to_path_buf(), reason });
+    }
+    let analysis = Analysis::of(study)?;
+    let relation = analysis.relation_file(study)?.to_json()? + "\n";
+    let fit = fit_figure(&analysis)?;
+    let staircases = match study.people.first() {
+        Some(person) => staircase_figure(person, &study.protocol)?,
+        None => return Err(Error::CannotFit("the study has no person".to_owned())),
+    };
+    let report = report_html(study, &analysis, &fit, &staircases)?;
+    let output = |name, content, mark| Output { name, content, mark };
+    write_outputs(
+        folder,
+        &[
+            output(RELATION, relation, scumble_core::SCHEMA),
+            output(REPORT, report, REPORT_MARK),
+            output(TRIALS_TABLE, trials_csv(study)?, TRIALS_MARK),
+            output(THRESHOLDS_TABLE, thresholds_csv(&analysis.thresholds)?, THRESHOLDS_MARK),
+            output(FIT_FIGURE, fit, FIGURE_MARK),
+            output(STAIRCASE_FIGURE, staircases, FIGURE_MARK),
+        ],
+    )?;
+
+    // What is on disk is what a renderer reads.
+    let path = folder.join(RELATION);
+    let written = std::fs::read_to_string(&path).map_err(Error::io(&path))?;
+    Relation::from_json(&written)?;
+    Ok(analysis)
+}
