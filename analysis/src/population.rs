@@ -160,7 +160,7 @@ mod tests {
             measurement_variance,
             detection_at_threshold: 0.64,
             slope: 3.5,
-            blind_share: 0.01,
+            blind_share: 0.0,
         }
     }
 
@@ -180,6 +180,16 @@ mod tests {
         let expected = population.thresholds.ci95.map(|limit| 10_f64.powf(limit));
         assert!((point.ci95[0] - expected[0]).abs() < 1e-9);
         assert!((point.ci95[1] - expected[1]).abs() < 1e-9);
+    }
+
+    #[test]
+    fn blind_trials_hardly_move_the_curve() {
+        let population = Population { blind_share: 0.01, ..population(0.0) };
+        let point = population.ratio(0.5, 0.64).unwrap();
+        assert!((point.ratio - 3.47).abs() < 1e-9, "the threshold itself does not move");
+        let point = population.ratio(0.5, 0.1).unwrap();
+        assert!((point.ratio - 6.654).abs() < 0.001, "{point:?}");
+        assert!(population.ratio(0.5, 0.995).is_err(), "nobody looks that often");
     }
 
     #[test]

@@ -1,0 +1,141 @@
+//! The program itself: exit status, one line for what is wrong, the formats that it prints.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_scumble-analysis")).args(arguments).output().unwrap()
+}
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
+}
+
+fn path(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[test]
+fn simulate_and_fit_make_a_relation() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sessions, out) = (folder.path().join("sessions"), folder.path().join("fit"));
+    let simulate = ["simulate", "--out", path(&sessions), "--observers", "4", "--seed", "1"];
+    assert!(program(&simulate).status.success());
+    let fit = program(&["fit", path(&sessions), "--out", path(&out)]);
+    assert!(fit.status.success(), "{fit:?}");
+    assert!(String::from_utf8(fit.stdout).unwrap().contains("<- relation.json"));
+    assert!(out.join("relation.json").exists());
+
+    // The same sessions again: refused, with one line.
+    let again = program(&simulate);
+    assert_eq!(again.status.code(), Some(1));
+    assert_eq!(String::from_utf8(again.stderr).unwrap().lines().count(), 1);
+}
+
+#[test]
+fn threshold_prints_the_keys_of_the_reference() {
+    let table = data("weibull_fit_data.csv");
+    let output = program(&["threshold", "--data", path(&table), "--guess", "0.5", "--lapse", "0.01"]);
+    assert!(output.status.success());
+    let printed: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    for key in ["threshold_t", "slope_beta", "lapse", "nll", "deviance", "x82", "se_t", "se_beta"] {
+        assert!(printed[key].is_f64(), "{key}");
+    }
+    assert!(program(&["threshold", "--data", path(&table), "--lapse", "free"]).status.success());
+}
+
+#[test]
+fn quest_prints_the_reference_table() {
+    let meta = fs::read_to_string(data("quest_reference_meta.json")).unwrap();
+    let meta: serde_json::Value = serde_json::from_str(&meta).unwrap();
+    let reference = fs::read_to_string(data("quest_reference.csv")).unwrap();
+    let (header, rows) = reference.split_once('\n').unwrap();
+    let folder = tempfile::tempdir().unwrap();
+
+    let mut sequences: Vec<(&str, &str)> =
+        rows.lines().map(|row| row.split(',').collect::<Vec<_>>()).map(|cells| (cells[0], cells[1])).collect();
+    sequences.dedup();
+    assert_eq!(sequences.len(), 7);
+    for (config, sequence) in sequences {
+        let expected: Vec<Vec<&str>> = rows
+            .lines()
+            .map(|row| row.split(',').collect::<Vec<_>>())
+            .filter(|cells| cells[0] == config && cells[1] == sequence)
+            .collect();
+        let config_file = folder.path().join(format!("{config}.json"));
+        fs::write(&config_file, meta["configs"][config].to_string()).unwrap();
+        let table = folder.path().join(format!("{sequence}.csv"));
+        let answers: String = expected[1..].iter().map(|cells| format!("{},{}\n", cells[3], cells[4])).collect();
+        fs::write(&table, format!("intensity,response\n{answers}")).unwrap();
+
+        let output = program(&["quest", "--config", path(&config_file), "--responses", path(&table)]);
+        let printed = String::from_utf8(output.stdout).unwrap();
+        let mut lines = printed.lines();
+        assert_eq!(lines.next(), Some(header.trim_end()));
+        for (line, wanted) in lines.by_ref().zip(&expected) {
+            for (found, wanted) in line.split(',').zip(wanted) {
+                let same = match (found.parse::<f64>(), wanted.trim().parse::<f64>()) {
+                    (Ok(found), Ok(wanted)) => (found - wanted).abs() <= 1e-9,
+                    _ => found == *wanted,
+                };
+                assert!(same, "{config} {sequence}: {found} is not {wanted}");
+            }
+        }
+        assert_eq!(printed.lines().count(), expected.len() + 1);
+    }
+}
+
+#[test]
+fn what_is_wrong_takes_one_line_and_exit_status_1() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path
+    };
+    let out = folder.path().join("out");
+    let empty = folder.path().join("empty");
+    fs::create_dir(&empty).unwrap();
+    let config = file(
+        "config.json",
+        r#"{"tGuess": 0, "tGuessSd": 1, "pThreshold": 0.82, "beta": 3.5, "delta": 0.01, "gamma": 0.5}"#,
+    );
+    let bad_config = file("bad.json", r#"{"tGuess": 0}"#);
+    let answers = file("answers.csv", "intensity,response\n0,1\n0.1,2\n");
+    let infinite = file("infinite.csv", "intensity,response\ninf,1\n");
+    let all_correct = file("all.csv", "level,n_correct,n_total\n1,9,9\n2,9,9\n");
+    let missing = folder.path().join("missing.csv");
+    let cases: [(&[&str], &str); 9] = [
+        (&["fit", path(&empty), "--out", path(&out)], "no session"),
+        (&["fit", path(&missing), "--out", path(&out)], "missing.csv"),
+        (&["threshold", "--data", path(&missing)], "missing.csv"),
+        (&["threshold", "--data", path(&all_correct)], "all.csv: the data cannot carry a fit"),
+        (&["threshold", "--data", path(&all_correct), "--guess", "NaN"], "--guess is NaN"),
+        (&["quest", "--config", path(&bad_config), "--responses", path(&answers)], "bad.json: line 1"),
+        (&["quest", "--config", path(&config), "--responses", path(&answers)], "answers.csv: line 3"),
+        (&["quest", "--config", path(&config), "--responses", path(&infinite)], "line 2"),
+        (
+            &["simulate", "--out", path(&out), "--observers", "2", "--seed", "1", "--protocol", "x"],
+            "allowed is two-alternative",
+        ),
+    ];
+    for (arguments, expected) in cases {
+        let output = program(arguments);
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+        assert!(message.contains(expected), "{arguments:?}: {message}");
+    }
+    assert!(!out.exists());
+}
+
+#[test]
+fn help_teaches_by_example() {
+    for command in ["fit", "simulate", "quest", "threshold"] {
+        let help = String::from_utf8(program(&[command, "--help"]).stdout).unwrap();
+        assert!(help.contains("Example") && help.contains(&format!("scumble-analysis {command}")));
+    }
+}

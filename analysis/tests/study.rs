@@ -1,0 +1,278 @@
+//! Whole studies: simulated observers run the real experiment, the fit finds what they were made with,
+//! and what cannot be fitted is refused with a reason.
+
+use std::{fs, path::Path};
+
+use scumble_analysis::{Analysis, Error, Person, RELATION, REPORT, Simulation, Study, fit_study};
+use scumble_core::{Relation, RelationFile};
+use scumble_psychophysics::{EVENTS_FILE, HEADER_FILE, ObserverParameters, Protocol};
+
+fn simulation(observers: u32, seed: u64) -> Simulation {
+    Simulation {
+        protocol: Protocol::two_alternative(),
+        observers,
+        seed,
+        median: ObserverParameters::default(),
+        between_sd_log10: 0.1,
+    }
+}
+
+/// Three observers on disk, in a folder that vanishes with the test.
+fn sessions() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    simulation(3, 7).write(folder.path(), || ()).unwrap();
+    folder
+}
+
+fn read(folder: &Path) -> Result<Study, Error> {
+    Study::read(&[folder.to_path_buf()])
+}
+
+/// Changes a session file.
+fn edit(folder: &Path, name: &str, change: impl Fn(&str) -> String) {
+    let path = folder.join("sim-0002").join(name);
+    let changed = change(&fs::read_to_string(&path).unwrap());
+    fs::write(path, changed).unwrap();
+}
+
+fn refusal(folder: &Path) -> String {
+    let message = read(folder).unwrap_err().to_string();
+    assert!(!message.contains('\n'), "one line: {message}");
+    message
+}
+
+#[test]
+fn twelve_observers_give_back_their_ratio_within_15_percent() {
+    for seed in 1..=5 {
+        let analysis = Analysis::of(&simulation(12, seed).study().unwrap()).unwrap();
+        let ratio = analysis.worst().ratio();
+        assert!((ratio / 3.47 - 1.0).abs() < 0.15, "seed {seed}: {ratio}");
+        let stair = analysis.series.iter().find(|s| s.name() == "stair, 100 % contrast").unwrap();
+        assert!((stair.ratio() / 2.5 - 1.0).abs() < 0.15, "seed {seed}: {}", stair.ratio());
+    }
+}
+
+#[test]
+fn over_forty_cohorts_the_bias_is_small_and_the_interval_covers() {
+    let cohorts = 40;
+    let (mut sum_log10, mut covered) = (0.0, 0);
+    for seed in 0..cohorts {
+        let analysis = Analysis::of(&simulation(8, 1000 + seed).study().unwrap()).unwrap();
+        let step = analysis.series.iter().find(|s| s.name() == "step, 100 % contrast").unwrap();
+        sum_log10 += step.log10_ratio.mean - 3.47_f64.log10();
+        let [low, high] = step.ratio_ci95();
+        covered += u32::from(low < 3.47 && 3.47 < high);
+    }
+    // RMS error of a cohort is 0.04 log10, so the mean of 40 is known to 0.0065: 3 of these.
+    assert!((sum_log10 / cohorts as f64).abs() < 0.02, "{sum_log10}");
+    assert!(covered >= 34, "{covered} of {cohorts} intervals cover; 38 are expected");
+}
+
+#[test]
+fn memory_and_disk_give_the_same_people() {
+    let folder = sessions();
+    let on_disk = read(folder.path()).unwrap();
+    let in_memory = simulation(3, 7).study().unwrap();
+    assert_eq!(on_disk.people, in_memory.people);
+    assert!(on_disk.is_simulated() && on_disk.notices.is_empty());
+}
+
+#[test]
+fn equal_seeds_write_equal_files_and_others_do_not() {
+    let [first, second, other] = [7, 7, 8].map(|seed| {
+        let folder = tempfile::tempdir().unwrap();
+        simulation(2, seed).write(folder.path(), || ()).unwrap();
+        fs::read(folder.path().join("sim-0002").join(EVENTS_FILE)).unwrap()
+    });
+    assert_eq!(first, second);
+    assert_ne!(first, other);
+}
+
+#[test]
+fn a_session_that_exists_is_not_overwritten() {
+    let folder = sessions();
+    let before = fs::read(folder.path().join("sim-0001").join(EVENTS_FILE)).unwrap();
+    let message = simulation(4, 9).write(folder.path(), || ()).unwrap_err().to_string();
+    assert!(message.contains("sim-0001: exists"), "{message}");
+    assert_eq!(fs::read(folder.path().join("sim-0001").join(EVENTS_FILE)).unwrap(), before);
+    assert!(!folder.path().join("sim-0004").exists());
+}
+
+#[test]
+fn fit_writes_a_relation_that_the_renderer_reads_and_replaces_its_own_files() {
+    let (folder, out) = (sessions(), tempfile::tempdir().unwrap());
+    let study = read(folder.path()).unwrap();
+    for _ in 0..2 {
+        let analysis = fit_study(&study, out.path()).unwrap();
+        let json = fs::read_to_string(out.path().join(RELATION)).unwrap();
+        let relation = Relation::from_json(&json).unwrap();
+        assert!((relation.ratio() - analysis.worst().ratio()).abs() < 1e-12);
+        let file = RelationFile::from_json(&json).unwrap();
+        assert_eq!((file.people, file.conditions.len(), file.sessions.len()), (Some(3), 4, 3));
+        let median = file.relation_for(0.5, 0.64).unwrap();
+        assert!((median.ratio() - relation.ratio()).abs() < 1e-9, "82 % correct is seen on 64 %");
+        assert!(file.relation_for(0.95, 0.1).unwrap().ratio() > relation.ratio());
+    }
+    let mut names: Vec<_> = fs::read_dir(out.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
+    names.sort();
+    let expected = ["fit.svg", "relation.json", "report.html", "staircases.svg", "thresholds.csv", "trials.csv"];
+    assert_eq!(names, expected);
+}
+
+#[test]
+fn the_report_is_one_file_without_references_and_says_that_people_are_simulated() {
+    let (folder, out) = (sessions(), tempfile::tempdir().unwrap());
+    fit_study(&read(folder.path()).unwrap(), out.path()).unwrap();
+    let page = fs::read_to_string(out.path().join(REPORT)).unwrap();
+    for reference in ["src=", "href=", "@import", "url("] {
+        assert!(!page.contains(reference), "{reference}");
+    }
+    assert!(page.contains("simulated") && page.contains("<svg") && !page.contains("NaN"));
+}
+
+#[test]
+fn the_table_of_trials_has_a_row_for_every_measured_trial() {
+    let (folder, out) = (sessions(), tempfile::tempdir().unwrap());
+    let study = read(folder.path()).unwrap();
+    fit_study(&study, out.path()).unwrap();
+    let rows =
+        |name: &str| csv::Reader::from_path(out.path().join(name)).unwrap().records().map(Result::unwrap).count();
+    assert_eq!(rows("trials.csv"), study.trial_count());
+    assert_eq!(rows("thresholds.csv"), 3 * 12);
+}
+
+#[test]
+fn a_foreign_file_under_a_name_of_ours_stops_the_fit() {
+    let (folder, out) = (sessions(), tempfile::tempdir().unwrap());
+    fs::write(out.path().join(REPORT), "a letter").unwrap();
+    let message = fit_study(&read(folder.path()).unwrap(), out.path()).unwrap_err().to_string();
+    assert!(message.contains("report.html: exists"), "{message}");
+    assert!(!out.path().join(RELATION).exists());
+    let into_session = folder.path().join("sim-0001");
+    assert!(fit_study(&read(folder.path()).unwrap(), &into_session).is_err());
+}
+
+#[test]
+fn one_person_is_refused_because_no_interval_follows() {
+    let study = simulation(1, 3).study().unwrap();
+    let message = Analysis::of(&study).unwrap_err().to_string();
+    assert!(message.contains("at least 2 people") && message.contains("found 1"), "{message}");
+}
+
+#[test]
+fn people_who_always_guess_or_never_err_carry_no_fit() {
+    for answer in [Some(true), Some(false), None] {
+        let mut study = simulation(3, 5).study().unwrap();
+        let tracks = study.people.iter_mut().flat_map(|person| &mut person.tracks);
+        for track in tracks {
+            let responses = track.responses.iter_mut().enumerate();
+            responses.for_each(|(i, (_, correct))| *correct = answer.unwrap_or(i % 2 == 0));
+        }
+        let message = Analysis::of(&study).unwrap_err().to_string();
+        assert!(message.contains("cannot carry a fit"), "{answer:?}: {message}");
+    }
+}
+
+#[test]
+fn a_study_in_which_nothing_converged_is_refused() {
+    let mut study = simulation(3, 5).study().unwrap();
+    study.people.iter_mut().flat_map(|p| &mut p.tracks).for_each(|track| track.converged = false);
+    let message = Analysis::of(&study).unwrap_err().to_string();
+    assert!(message.contains("none of 36 conditions converged in any of 3 people"), "{message}");
+}
+
+#[test]
+fn a_condition_without_a_threshold_is_left_out_with_its_reason() {
+    let mut study = simulation(4, 5).study().unwrap();
+    let person: &mut Person = &mut study.people[0];
+    person.tracks[0].responses.iter_mut().for_each(|(_, correct)| *correct = true);
+    let analysis = Analysis::of(&study).unwrap();
+    let named = |s: &&String| s.starts_with("sim-0001, stair, 100 %") && s.contains("were correct");
+    assert_eq!(analysis.exclusions.iter().filter(named).count(), 1, "{:?}", analysis.exclusions);
+    assert_eq!(analysis.series.len(), 4);
+}
+
+#[test]
+fn every_damage_to_a_session_is_named_with_file_and_line() {
+    let folder = sessions();
+    let without_line_5 = |text: &str| {
+        let lines: Vec<&str> = text.lines().enumerate().filter(|(i, _)| *i != 4).map(|l| l.1).collect();
+        lines.join("\n") + "\n"
+    };
+    edit(folder.path(), EVENTS_FILE, without_line_5);
+    let message = refusal(folder.path());
+    assert!(message.contains("events.jsonl:5"), "{message}");
+
+    let folder = sessions();
+    edit(folder.path(), EVENTS_FILE, |text| text.replacen("\"radius_px\":", "\"radius_px\":NaN,\"x\":", 1));
+    let message = refusal(folder.path());
+    assert!(message.contains("events.jsonl:1"), "{message}");
+
+    let folder = sessions();
+    edit(folder.path(), HEADER_FILE, |text| text[..text.len() / 2].to_owned());
+    let message = refusal(folder.path());
+    assert!(message.contains("session.json"), "{message}");
+
+    let folder = sessions();
+    fs::remove_file(folder.path().join("sim-0002").join(EVENTS_FILE)).unwrap();
+    let message = refusal(folder.path());
+    assert!(message.contains("sim-0002") && message.contains("events.jsonl"), "{message}");
+}
+
+#[test]
+fn a_cut_last_line_is_dropped_with_a_notice() {
+    let folder = sessions();
+    edit(folder.path(), EVENTS_FILE, |text| text[..text.len() - 20].to_owned());
+    let study = read(folder.path()).unwrap();
+    assert!(study.notices.iter().any(|notice| notice.contains("cut off")), "{:?}", study.notices);
+    assert!(study.notices.iter().any(|notice| notice.contains("not finished")));
+}
+
+#[test]
+fn an_empty_folder_and_a_missing_one_are_named() {
+    let empty = tempfile::tempdir().unwrap();
+    assert!(refusal(empty.path()).contains("no session"));
+    assert!(refusal(Path::new("no/such/folder")).contains("no/such/folder"));
+}
+
+#[test]
+fn a_copy_of_a_session_and_another_protocol_are_refused() {
+    let folder = sessions();
+    let copy = folder.path().join("copy");
+    fs::create_dir(&copy).unwrap();
+    for name in [HEADER_FILE, EVENTS_FILE] {
+        fs::copy(folder.path().join("sim-0001").join(name), copy.join(name)).unwrap();
+    }
+    let message = refusal(folder.path());
+    assert!(message.contains("a copy of the session"), "{message}");
+
+    let folder = sessions();
+    let mut other = simulation(1, 11);
+    other.protocol.trials_max += 1;
+    other.write(&folder.path().join("sub"), || ()).unwrap();
+    let paths = [folder.path().to_path_buf(), folder.path().join("sub")];
+    let message = Study::read(&paths).unwrap_err().to_string();
+    assert!(message.contains("protocol differs"), "{message}");
+}
+
+#[test]
+fn a_folder_given_twice_counts_once() {
+    let folder = sessions();
+    let paths = [folder.path().to_path_buf(), folder.path().join("sim-0001")];
+    assert_eq!(Study::read(&paths).unwrap().people.len(), 3);
+}
+
+#[test]
+fn options_out_of_range_are_refused_by_name() {
+    let study = simulation(3, 1);
+    let cases = [
+        (Simulation { observers: 0, ..study.clone() }, "--observers"),
+        (Simulation { between_sd_log10: f64::NAN, ..study.clone() }, "--between-sd"),
+        (Simulation { between_sd_log10: -0.1, ..study.clone() }, "--between-sd"),
+        (Simulation { median: ObserverParameters { ratio: 0.0, ..study.median }, ..study.clone() }, "ratio"),
+    ];
+    for (case, name) in cases {
+        let message = case.check().unwrap_err().to_string();
+        assert!(message.contains(name) && message.contains("allowed"), "{message}");
+    }
+}
