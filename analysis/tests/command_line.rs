@@ -1,5 +1,7 @@
 //! The program itself: exit status, one line for what is wrong, the formats that it prints.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at what it did not expect, in helpers too")]
+
 use std::{
     fs,
     path::{Path, PathBuf},

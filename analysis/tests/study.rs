@@ -1,6 +1,8 @@
 //! Whole studies: simulated observers run the real experiment, the fit finds what they were made with,
 //! and what cannot be fitted is refused with a reason.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at what it did not expect, in helpers too")]
+
 use std::{fs, path::Path};
 
 use scumble_analysis::{Analysis, Error, Person, RELATION, REPORT, Simulation, Study, fit_study};

@@ -3,6 +3,8 @@
 //! `data/weibull_fit_data.csv`: 13 levels, two alternatives, 90 answers each, from psignifit's
 //! documentation. `data/weibull_fit_reference.json`: its fit by SciPy, checked against psignifit 4.3.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at what it did not expect, in helpers too")]
+
 use std::{io::Write, path::Path};
 
 use scumble_analysis::{Count, Model, Parameter, Unidentified, Weibull, fit, fit_count_table, read_count_table};
