@@ -1,9 +1,14 @@
 //! The filter without texels: every lookup of [`scumble_core::filter`] is a ray.
 //!
-//! A lookup at offset `o` and depth `d` follows the light's ray that crosses the reference plane at the receiver's point
-//! plus `o`. It is lit when nothing lies on the ray between the map's near plane and `d - epsilon`. The blocker search takes
-//! the depth of the first surface on the same ray. So this is a shadow map of infinite resolution, with the bias that
-//! rounding needs ([`Bias::without_texels`], [`Rays::epsilon`]) and none that texels need.
+//! A tap at offset `o` is the light's ray that crosses the reference plane at the receiver's point plus `o`. A map of
+//! infinite resolution would call it shaded when its first surface lies before the receiver's tangent plane. The truth
+//! deviates from that, because the filter stands for "the filtered hard shadow" (Kreuzer 2017, 4.4): the hard shadow is a
+//! function on surfaces, and its mean is taken over the surface around the receiver, not over a plane that leaves it. A
+//! neighbouring fold, riser or wall that rises above the tangent plane and is lit is a part of that surface and no
+//! occluder. So the tap asks whether light reaches the surface where the ray meets it; `tap` says which surface.
+//!
+//! What a map differs by from this truth is its texels, the bias that they need, and the self-shadowing of its tangent
+//! plane in concave places. Bias here is only what rounding needs ([`Bias::without_texels`], [`Rays::epsilon`]).
 //!
 //! Source: the comparison with an alias-free hard shadow of course notes Eisemann et al. (2009), 1.6, filtered by the kernel
 //! under test in place of the light.
@@ -14,6 +19,7 @@ use scumble_core::filter::{self, SoftShadow};
 use scumble_core::{Bias, Filter, Fit, ReceiverPlane, Taps, rotation_angle};
 
 use crate::Rays;
+use crate::tap::Surroundings;
 
 /// Receivers that a thread takes at a time, and the step of the progress.
 const CHUNK: usize = 1024;
@@ -55,18 +61,29 @@ impl<'a> KernelTruth<'a> {
         let position = receiver.position.as_dvec3();
         let normal = receiver.normal.as_dvec3();
         let plane = ReceiverPlane::new(self.fit, position, normal, &Bias::without_texels(), DVec2::ZERO);
-        let middle = self.fit.plane_from_world(position);
-        let lookup = |offset: DVec2, depth: f64| f64::from(u8::from(self.lit(middle + offset, depth)));
-        let depth_at = |offset: DVec2| self.first_depth(middle + offset);
+        let around = Surroundings::new(self.rays, self.fit, &plane, position);
         let turn = rotation_angle(receiver.pixel);
+        let pcf = |radius_world: f64| {
+            let lookup =
+                |offset, depth| f64::from(u8::from(around.occluder_depth(offset, depth, radius_world).is_none()));
+            filter::pcf(lookup, &self.taps.filter, radius_world, turn, &plane)
+        };
 
-        let fixed = |visibility, radius_world| SoftShadow { visibility, blockers: None, radius_world };
         match self.filter {
-            Filter::Hard => fixed(filter::hard(lookup, &plane), 0.0),
-            Filter::Pcf { radius_world } => {
-                fixed(filter::pcf(lookup, &self.taps.filter, radius_world, turn, &plane), radius_world)
+            Filter::Hard => {
+                let lookup = |offset, depth| f64::from(u8::from(around.occluder_depth(offset, depth, 0.0).is_none()));
+                SoftShadow { visibility: filter::hard(lookup, &plane), blockers: None, radius_world: 0.0 }
             }
-            Filter::Pcss => filter::pcss(depth_at, lookup, &self.taps, turn, self.fit, &plane, self.radius_min_world),
+            Filter::Pcf { radius_world } => SoftShadow { visibility: pcf(radius_world), blockers: None, radius_world },
+            Filter::Pcss => {
+                let search = filter::search_radius_world(self.fit, plane.depth).max(self.radius_min_world);
+                let depth_at = |offset| around.occluder_depth(offset, plane.depth_at(offset), search);
+                // The surroundings' reach is the filter's radius, so it is searched for before any tap is looked at.
+                let lit = |_, _| 1.0;
+                let found = filter::pcss(depth_at, lit, &self.taps, turn, self.fit, &plane, self.radius_min_world);
+                let visibility = if found.blockers.is_some() { pcf(found.radius_world) } else { 1.0 };
+                SoftShadow { visibility, ..found }
+            }
         }
     }
 
@@ -81,18 +98,5 @@ impl<'a> KernelTruth<'a> {
             progress(receivers.len());
         });
         visibility
-    }
-
-    /// Whether the light's ray through `plane` on the reference plane reaches `depth`. What lies before the near plane is lit.
-    fn lit(&self, plane: DVec2, depth: f64) -> bool {
-        let (near, end) = (self.fit.depth_near, depth - self.rays.epsilon());
-        end <= near || self.rays.free(self.fit.world_from_plane(plane, near), self.fit.world_from_plane(plane, end))
-    }
-
-    /// Depth of the first surface behind the near plane on the light's ray through `plane`.
-    fn first_depth(&self, plane: DVec2) -> Option<f64> {
-        let start = self.fit.world_from_plane(plane, self.fit.depth_near);
-        let direction = self.fit.world_from_plane(plane, self.fit.depth_far) - start;
-        self.rays.first_hit(start, direction).map(|hit| self.fit.depth(hit.position))
     }
 }

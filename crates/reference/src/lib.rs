@@ -1,8 +1,9 @@
 //! Ground truth for shadow maps, on the CPU: what the shadow would be without texels, and how far a picture is from it.
 //!
 //! * [`Rays`]: the nearest hit on a ray, and whether a segment is free, exact to `f64` on a scene's triangles.
-//! * [`KernelTruth`]: the filter of [`scumble_core::filter`] with a ray in place of every map lookup. Taps, rotation, radii
-//!   and tangent plane are those of the shader, so what differs from it is the texel and the bias that hides the texel.
+//! * [`KernelTruth`]: the filter of [`scumble_core::filter`] with a ray in place of every map lookup. Taps, rotation and radii
+//!   are those of the shader. A tap asks whether light reaches the surface around the receiver, where a map compares with
+//!   the tangent plane. So what differs is the texel, its bias, and what the map calls shaded where a lit surface is folded.
 //! * [`Differences`] and [`error_map`]: maximum, 99th percentile, RMS and bias over a mask of pixels, and their picture.
 //!
 //! Checked against closed forms: the half plane and the slit under a disc kernel (`tests/closed_forms.rs`).
@@ -14,6 +15,7 @@ mod error_map;
 mod kernel_truth;
 mod metrics;
 mod rays;
+mod tap;
 
 pub use error::Error;
 pub use error_map::error_map;

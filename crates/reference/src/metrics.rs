@@ -10,7 +10,7 @@
 use crate::Error;
 
 /// Differences of visibility, in shares of full light.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Differences {
     /// Pixels of the mask.
     pub pixels: usize,

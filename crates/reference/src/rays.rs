@@ -57,6 +57,9 @@ pub struct Hit {
     pub geometric_normal: DVec3,
     /// Unit normal interpolated between the corners, on the same side as the geometric normal.
     pub shading_normal: DVec3,
+    /// Whether the ray meets the side that the corners' mean normal points to. Windings do not tell: in files from many
+    /// programs they differ inside of one mesh.
+    pub front: bool,
     /// Index into the scene's meshes.
     pub mesh: usize,
 }
@@ -117,6 +120,26 @@ impl Rays {
         let (index, meeting) = found?;
         let distance = meeting.distance / self.local_per_metre;
         Some(self.triangles[index].hit(&meeting, direction, distance, origin))
+    }
+
+    /// All hits on the ray, near ones first. Neighbours that share the point where the ray passes count once.
+    pub fn all_hits(&self, origin: DVec3, direction: DVec3) -> Vec<Hit> {
+        let origin_local = self.local(origin);
+        let direction = direction.normalize();
+        let mut hits = Vec::new();
+        self.hierarchy.ray_traverse(narrow(origin_local, direction, f64::INFINITY), &mut RayHit::none(), |_, index| {
+            let triangle = &self.triangles[index];
+            if let Some(meeting) = triangle.meet(origin_local, direction).filter(|meeting| meeting.distance > 0.0) {
+                hits.push(triangle.hit(&meeting, direction, meeting.distance / self.local_per_metre, origin));
+            }
+            f32::INFINITY
+        });
+        hits.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        let seam = EDGE_TOLERANCE * self.diagonal;
+        hits.dedup_by(|next, kept| {
+            next.distance - kept.distance <= seam && (next.mesh, next.front) == (kept.mesh, kept.front)
+        });
+        hits
     }
 
     /// Whether nothing lies on the open segment between two points.
@@ -213,6 +236,7 @@ impl Triangle {
             position: origin + direction * distance,
             geometric_normal,
             shading_normal,
+            front: (n0 + n1 + n2).dot(direction) <= 0.0,
             mesh: self.mesh as usize,
         }
     }
@@ -314,6 +338,22 @@ mod tests {
         let rays = Rays::new(&scene(vec![far, ground("sheet", DVec3::ZERO, 1.0, Vec3::ONE)]));
         let above = DVec3::new(0.1, rays.epsilon(), 0.1);
         assert!(!rays.free(above, DVec3::new(0.1, -50.0, 0.1)));
+    }
+
+    #[test]
+    fn all_hits_on_a_ray_are_told_once_with_their_side() {
+        let rays = Rays::new(&scene(vec![
+            ground("ground", DVec3::ZERO, 4.0, Vec3::ONE),
+            cuboid("box", DVec3::new(-0.5, 1.0, -0.5), DVec3::new(0.5, 2.0, 0.5), Vec3::ONE),
+        ]));
+        // Through a face's middle, where its two triangles meet, and beside it.
+        for x in [0.0, 0.2] {
+            let hits = rays.all_hits(DVec3::new(x, 3.0, 0.0), DVec3::NEG_Y);
+            let told: Vec<_> = hits.iter().map(|hit| (hit.mesh, hit.front)).collect();
+            assert_eq!(told, [(1, true), (1, false), (0, true)]);
+            assert!(hits.iter().zip([1.0, 2.0, 3.0]).all(|(hit, distance)| (hit.distance - distance).abs() < 1e-9));
+        }
+        assert!(rays.all_hits(DVec3::new(3.0, 3.0, 0.0), DVec3::NEG_Y).is_empty());
     }
 
     #[test]

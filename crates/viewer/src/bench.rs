@@ -1,11 +1,11 @@
 //! `bench`: what a size costs and what it changes, by scene and method.
 //!
 //! Times are medians over frames in which the variants take turns, so that a machine that warms up or gets busy does so for
-//! all of them. Errors are of the visibility at every pixel, against the same filter over an alias-free shadow at the
-//! very positions and normals that the shader saw; only the texel differs.
+//! all of them. Errors are of the visibility at every pixel, against the same filter over the hard shadow without texels, on
+//! the surface around the very positions and normals that the shader saw: what the texel does, its bias, and the
+//! tangent plane that a map compares with where the surface is folded.
 
 mod comparison;
-mod error_map;
 mod pictures;
 mod row;
 
@@ -13,18 +13,19 @@ use std::path::Path;
 
 use anyhow::{Result, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
+use scumble_reference::Rays;
 use serde::Serialize;
 
 use crate::bench::comparison::{Screen, compare};
 use crate::bench::row::{Row, Timings, table};
 use crate::cli::{Bench, Size};
 use crate::device::Gpu;
-use crate::kernel_truth::KernelTruth;
 use crate::output::{Kind, claim, make_directory, write, write_json};
 use crate::record::{MachineRecord, RatioRecord};
 use crate::setup::Setup;
 use crate::stage::Stage;
 use crate::timer::Timer;
+use crate::truth::true_visibility;
 use crate::variant::Variant;
 
 /// Samples per pixel along x and along y of the pictures.
@@ -115,27 +116,25 @@ fn bench_scene(options: &Bench, size_px: [u32; 2], stage: Stage) -> Result<Vec<R
     let surfaces = receivers.read_surfaces(&stage.gpu)?;
     let screen = Screen::new(&stage.setup.scene.light, surfaces, size_px);
     let samples_per_side = if options.quick { 1 } else { SAMPLES_PER_SIDE };
-    let truth = KernelTruth::new(&stage.setup);
+    let rays = Rays::new(&stage.setup.scene);
     for &method in &options.methods {
         let of_method = || variants.iter().zip(&timings).filter(|(variant, _)| variant.method == method);
         let Some((first, _)) = of_method().next() else { continue };
         let plan = first.plan()?;
         let filter = stage.setup.filter(method);
-        let bar = progress(&format!("{name}: truth of {}", method.name()), screen.surfaces.len() as u64);
-        let true_visibility = truth.visibility(&filter, plan, &screen.surfaces, size_px[0], &bar);
-        bar.finish_and_clear();
+        let message = format!("{name}: truth of {}", method.name());
+        let truth = true_visibility(&message, &rays, &filter, plan, &screen.surfaces, size_px[0]);
 
         let directory = options.out.join(directory_name(&name)).join(method.name());
         make_directory(&directory)?;
         let pictures = pictures::Pictures::new(&stage, &directory, size_px, samples_per_side)?;
-        let truth_picture = pictures.truth(&truth, &filter, plan, &true_visibility)?;
+        let truth_picture = pictures.truth(&rays, &filter, plan, &truth)?;
         for (variant, timing) in of_method() {
             let visibility = variant.read_visibility(&stage)?;
             let radii = variant.read_radii(&stage, &receivers)?;
-            let comparison = compare(&stage, variant, &screen, &visibility, &true_visibility, &radii)?;
+            let comparison = compare(&stage, variant, &screen, &visibility, &truth, &radii)?;
             let label = label(variant.size, &options.sizes);
-            let files =
-                pictures.variant(variant, &label, &visibility, &true_visibility, &screen.lit_facing, &truth_picture)?;
+            let files = pictures.variant(variant, &label, &visibility, &truth, &screen.lit_facing, &truth_picture)?;
             rows.push(Row::new(&stage, variant, size_px, timing, comparison, files, &options.out)?);
         }
     }

@@ -16,7 +16,6 @@ mod evaluation;
 mod fullscreen;
 mod gbuffer;
 mod geometry;
-mod kernel_truth;
 mod output;
 mod readback;
 mod record;

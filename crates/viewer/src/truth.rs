@@ -1,13 +1,14 @@
 //! `truth`: the picture that a map without texels would give, and its visibility as raw numbers.
 
 use anyhow::Result;
-use scumble::Light;
+use scumble::{Filter, Light, Plan};
+use scumble_reference::{KernelTruth, Rays, Receiver};
 use serde::Serialize;
 
 use crate::bench::progress;
 use crate::cli::{Size, Truth};
 use crate::device::Gpu;
-use crate::kernel_truth::KernelTruth;
+use crate::gbuffer::Surface;
 use crate::output::{Kind, claim, write_json, write_png, write_raw};
 use crate::setup::Setup;
 use crate::stage::Stage;
@@ -49,11 +50,10 @@ pub fn run(options: &Truth) -> Result<()> {
     fitted.frame(&stage, &samples, &mut timer)?;
 
     let surfaces = samples.read_surfaces(&stage.gpu)?;
-    let bar = progress(&format!("truth of {}", stage.setup.scene.name), surfaces.len() as u64);
     let filter = stage.setup.filter(options.method);
-    let truth = KernelTruth::new(&stage.setup);
-    let visibility = truth.visibility(&filter, fitted.plan()?, &surfaces, samples.size_px[0], &bar);
-    bar.finish_and_clear();
+    let message = format!("truth of {}", stage.setup.scene.name);
+    let rays = Rays::new(&stage.setup.scene);
+    let visibility = true_visibility(&message, &rays, &filter, fitted.plan()?, &surfaces, samples.size_px[0]);
 
     let texture = stage.upload_visibility(&samples, &visibility);
     write_png(&picture_path, &stage.picture(&samples, &texture, SAMPLES_PER_SIDE)?)?;
@@ -72,4 +72,36 @@ pub fn run(options: &Truth) -> Result<()> {
     write_json(&record_path, &record)?;
     println!("{}, {}, {}", picture_path.display(), raw_path.display(), record_path.display());
     Ok(())
+}
+
+/// Visibility without texels of every pixel of a picture `width_px` wide; 1 where there is no surface or the light has no
+/// view. The plan's fit says where the reference plane is, on which radii are measured.
+pub fn true_visibility(
+    message: &str,
+    rays: &Rays,
+    filter: &Filter,
+    plan: &Plan,
+    surfaces: &[Option<Surface>],
+    width_px: u32,
+) -> Vec<f32> {
+    let mut visibility = vec![1.0; surfaces.len()];
+    let Some(view) = plan.views().first() else { return visibility };
+    let (seen, receivers): (Vec<usize>, Vec<Receiver>) = surfaces
+        .iter()
+        .enumerate()
+        .filter_map(|(index, surface)| Some((index, receiver(surface.as_ref()?, index, width_px))))
+        .unzip();
+    let bar = progress(message, receivers.len() as u64);
+    let of_receivers = KernelTruth::new(rays, &view.fit, *filter).visibility(&receivers, |done| bar.inc(done as u64));
+    bar.finish_and_clear();
+    for (index, of_receiver) in seen.into_iter().zip(of_receivers) {
+        visibility[index] = of_receiver;
+    }
+    visibility
+}
+
+/// What is seen in the pixel `index` of rows `width_px` wide.
+fn receiver(surface: &Surface, index: usize, width_px: u32) -> Receiver {
+    let (position, normal, index) = (surface.position, surface.normal.normalize_or_zero(), index as u32);
+    Receiver { position, normal, pixel: [index % width_px, index / width_px] }
 }

@@ -8,6 +8,7 @@
 use anyhow::Result;
 use scumble::Light;
 use scumble::scumble_core::pixel_footprint_world;
+use scumble_reference::{Differences, differences, penumbra};
 use serde::Serialize;
 
 use crate::cli::Method;
@@ -40,26 +41,11 @@ impl Screen {
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
     /// Over all pixels that face the light.
-    pub lit_facing: MaskedError,
+    pub lit_facing: Differences,
     /// Over those with partial visibility.
-    pub penumbra: MaskedError,
+    pub penumbra: Differences,
     /// Share of the penumbra in which texels are seen; null without a soft filter or a map.
     pub violation_share: Option<f64>,
-}
-
-/// Errors of the shadow fraction over some pixels.
-#[derive(Clone, Debug, Serialize)]
-pub struct MaskedError {
-    /// How many pixels.
-    pub pixels: usize,
-    /// Largest absolute error.
-    pub max: f64,
-    /// 99 % of the absolute errors are at most this.
-    pub p99: f64,
-    /// Root of the mean square.
-    pub rms: f64,
-    /// Mean signed error; positive is brighter than the truth.
-    pub bias: f64,
 }
 
 /// Compares the visibility of every pixel with the truth; `radii` are those of the filter before its lower clamp.
@@ -71,32 +57,12 @@ pub fn compare(
     truth: &[f32],
     radii: &[f32],
 ) -> Result<Comparison> {
-    let penumbra: Vec<bool> =
-        screen.lit_facing.iter().zip(truth).map(|(&facing, &truth)| facing && truth > 0.0 && truth < 1.0).collect();
+    let penumbra = penumbra(truth, &screen.lit_facing)?;
     Ok(Comparison {
-        lit_facing: masked(visibility, truth, &screen.lit_facing),
-        penumbra: masked(visibility, truth, &penumbra),
+        lit_facing: differences(visibility, truth, &screen.lit_facing)?,
+        penumbra: differences(visibility, truth, &penumbra)?,
         violation_share: violation_share(stage, variant, screen, &penumbra, radii)?,
     })
-}
-
-/// Errors over the pixels of a mask; zeros over none.
-fn masked(visibility: &[f32], truth: &[f32], mask: &[bool]) -> MaskedError {
-    let differences = visibility.iter().zip(truth).map(|(&found, &truth)| f64::from(found) - f64::from(truth));
-    let signed: Vec<f64> = differences.zip(mask).filter(|(_, inside)| **inside).map(|(error, _)| error).collect();
-    let mut sizes: Vec<f64> = signed.iter().map(|error| error.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    let count = sizes.len();
-    // The smallest error that 99 % of the pixels do not exceed.
-    let p99 = sizes.get((0.99 * count as f64).ceil().max(1.0) as usize - 1);
-    let mean = |sum: f64| if count == 0 { 0.0 } else { sum / count as f64 };
-    MaskedError {
-        pixels: count,
-        max: sizes.last().copied().unwrap_or(0.0),
-        p99: p99.copied().unwrap_or(0.0),
-        rms: mean(sizes.iter().map(|error| error * error).sum()).sqrt(),
-        bias: mean(signed.iter().sum()),
-    }
 }
 
 /// Whether the light reaches this side of a surface where nothing stands in the way.
@@ -138,20 +104,6 @@ fn violation_share(
 mod tests {
     use super::*;
     use glam::{DVec3, Vec3};
-
-    #[test]
-    fn errors_of_a_known_list_are_known() {
-        let error = masked(&[0.5, 1.0, 0.0, 9.0], &[0.5, 0.5, 0.1, 0.0], &[true, true, true, false]);
-        assert_eq!((error.pixels, error.max, error.p99), (3, 0.5, 0.5));
-        assert!((error.rms - (0.26f64 / 3.0).sqrt()).abs() < 1e-6, "{}", error.rms);
-        assert!((error.bias - 0.4 / 3.0).abs() < 1e-6, "{}", error.bias);
-    }
-
-    #[test]
-    fn no_pixels_have_no_error() {
-        let error = masked(&[1.0], &[0.0], &[false]);
-        assert_eq!((error.pixels, error.max, error.rms), (0, 0.0, 0.0));
-    }
 
     #[test]
     fn a_surface_faces_a_lamp_only_inside_of_its_cone() {

@@ -2,16 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Context, Result};
+use image::RgbImage;
 use scumble::{Filter, Plan};
+use scumble_reference::{Rays, error_map};
 
-use crate::bench::error_map::error_map;
-use crate::bench::progress;
 use crate::gbuffer::{GBuffer, Surface};
-use crate::kernel_truth::KernelTruth;
 use crate::output::{Kind, claim, write_png};
 use crate::stage::Stage;
+use crate::truth::true_visibility;
 use crate::variant::Variant;
+
+/// Error of the shadow fraction that has the full colour in the error maps.
+const ERROR_FULL_SCALE: f32 = 0.25;
 
 /// Names and paths of pictures.
 pub type Files = Vec<(&'static str, PathBuf)>;
@@ -33,16 +36,14 @@ impl<'a> Pictures<'a> {
     }
 
     /// The picture of the truth; `visibility` is that of one sample per pixel.
-    pub fn truth(&self, truth: &KernelTruth, filter: &Filter, plan: &Plan, visibility: &[f32]) -> Result<PathBuf> {
+    pub fn truth(&self, rays: &Rays, filter: &Filter, plan: &Plan, visibility: &[f32]) -> Result<PathBuf> {
         let path = claim(&self.directory.join("truth.png"), Kind::Png)?;
         let finer;
         let visibility = if self.samples_per_side == 1 {
             visibility
         } else {
             let surfaces: Vec<Option<Surface>> = self.samples.read_surfaces(&self.stage.gpu)?;
-            let bar = progress("truth of the picture", surfaces.len() as u64);
-            finer = truth.visibility(filter, plan, &surfaces, self.samples.size_px[0], &bar);
-            bar.finish_and_clear();
+            finer = true_visibility("truth of the picture", rays, filter, plan, &surfaces, self.samples.size_px[0]);
             &finer
         };
         let texture = self.stage.upload_visibility(&self.samples, visibility);
@@ -65,7 +66,8 @@ impl<'a> Pictures<'a> {
         let texture = variant.evaluate(self.stage, &self.samples)?;
         write_png(&picture, &self.stage.picture(&self.samples, &texture, self.samples_per_side)?)?;
         let [width, height] = self.size_px;
-        write_png(&error, &error_map(visibility, truth, lit_facing, width, height)?)?;
+        let map = RgbImage::from_raw(width, height, error_map(visibility, truth, lit_facing, ERROR_FULL_SCALE)?);
+        write_png(&error, &map.context("the error map has another size than its pixels")?)?;
         Ok(vec![("picture", picture), ("error_map", error), ("truth", truth_picture.to_owned())])
     }
 }
