@@ -97,7 +97,7 @@ impl Series {
         })
     }
 
-    /// `step, 100 %`.
+    /// `step, 100 % contrast`.
     pub fn name(&self) -> String {
         series_name(self.pattern, self.contrast)
     }
@@ -124,7 +124,7 @@ impl Series {
     }
 }
 
-/// `step, 100 %`.
+/// `step, 100 % contrast`.
 pub(crate) fn series_name(pattern: Pattern, contrast: f64) -> String {
     format!("{}, {} % contrast", pattern_name(pattern), (contrast * 1000.0).round() / 10.0)
 }

@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 use jiff::Timestamp;
 use rayon::prelude::*;
 use scumble_psychophysics::{
-    Event, Experiment, Moment, ObserverParameters, Population, Protocol, SessionHeader, SessionWriter, Software, Stage,
+    Event, Experiment, Moment, ObserverParameters, Population, Protocol, SessionHeader, SessionWriter, Software,
+    rehearse,
 };
 
 use crate::{
@@ -64,14 +65,8 @@ impl Simulation {
         let observer = self.population().person(index)?;
         let seed = self.population().session_seed(index);
         let mut experiment = Experiment::new(self.protocol.clone(), seed)?;
-        while *experiment.stage() != Stage::Finished {
-            match experiment.stage().trial().copied() {
-                Some(trial) => {
-                    let side = observer.answer(&trial);
-                    record(&experiment.answer(side, observer.response_time_secs(&trial))?)?;
-                }
-                None => experiment.proceed()?,
-            }
+        for event in rehearse(&mut experiment, &observer)? {
+            record(&event)?;
         }
         record(&Event::End(Moment { at: Timestamp::UNIX_EPOCH, notes: Vec::new() }))?;
         Ok(experiment)

@@ -2,17 +2,16 @@
 //!
 //! `p(x) = g + (1 - g - l) F(x)` with `F(x) = 1 - exp(-10^(b (x - t)))`.
 //!
-//! `x` intensity in log10 units, `t` location in the same units (where `F = 1 - 1/e`), `b` slope (per decade), `g` guess rate, `l` lapse rate (upper asymptote `1 - l`).
+//! `x` intensity in log10 units, `t` location in the same units (where `F = 1 - 1/e`), `b` slope (per decade), `g` guess
+//! rate, `l` lapse rate (upper asymptote `1 - l`).
 //! `F` is the probability that the artifact is *seen*; `p` is the probability of a *correct* answer.
-//! Source: Watson and Pelli 1983, Eq. 1, written with the upper asymptote `1 - l`. QUEST's own form mixes with weight `delta`:
-//! `p = delta g + (1 - delta)(g + (1 - g) F)`. That is this function with `l = delta (1 - g)`.
+//! Source: Watson and Pelli 1983, Eq. 1, written with the upper asymptote `1 - l`. QUEST's own form mixes with weight
+//! `delta`: `p = delta g + (1 - delta)(g + (1 - g) F)`. That is this function with `l = delta (1 - g)`.
 
 use std::f64::consts::LN_10;
 
-use serde::{Deserialize, Serialize};
-
 /// A Weibull psychometric function.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weibull {
     /// Location `t`, log10 units: the intensity at which 63.2 % of the artifacts are seen.
     pub location: f64,
@@ -46,7 +45,8 @@ impl Weibull {
         inside.then(|| self.location + (-(-detection).ln_1p()).log10() / self.slope)
     }
 
-    /// Intensity at which the answer is correct with probability `probability`; `None` where the function never takes that value.
+    /// Intensity at which the answer is correct with probability `probability`; `None` where the function never takes
+    /// that value.
     pub fn x_at_correct(&self, probability: f64) -> Option<f64> {
         self.x_at_detection((probability - self.guess) / (1.0 - self.guess - self.lapse))
     }

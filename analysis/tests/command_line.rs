@@ -16,6 +16,11 @@ fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
 }
 
+/// The tables that QUEST itself is tested with.
+fn quest_data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/psychophysics/tests/data").join(name)
+}
+
 fn path(path: &Path) -> &str {
     path.to_str().unwrap()
 }
@@ -51,9 +56,9 @@ fn threshold_prints_the_keys_of_the_reference() {
 
 #[test]
 fn quest_prints_the_reference_table() {
-    let meta = fs::read_to_string(data("quest_reference_meta.json")).unwrap();
+    let meta = fs::read_to_string(quest_data("quest_reference_meta.json")).unwrap();
     let meta: serde_json::Value = serde_json::from_str(&meta).unwrap();
-    let reference = fs::read_to_string(data("quest_reference.csv")).unwrap();
+    let reference = fs::read_to_string(quest_data("quest_reference.csv")).unwrap();
     let (header, rows) = reference.split_once('\n').unwrap();
     let folder = tempfile::tempdir().unwrap();
 
