@@ -6,6 +6,7 @@
 //! ```text
 //! gap <= 0                                   lit
 //! gap > reach                                shaded
+//! d_1 is of the mesh that shades o = 0       shaded: the receiver lies under it
 //! no layer within r / 20 of d_1              shaded: a back, of which the front is elsewhere
 //! another open layer before t + gap          shaded: it is nearer to t and belongs to the receiver, d_1 is before it
 //! else                                       lit: d_1 is the receiver's own surface, which rises above the tangent plane
@@ -19,8 +20,9 @@
 //! continues under a wall, and at the foot of the wall's lit side it must not make the wall an occluder. A mesh holds the
 //! layer when the ray, from the layer on, leaves the mesh more often than it enters it.
 //!
-//! Limits: folds steeper than the reach shade as they would in a map; light through a wall thinner than the kernel finds the floor behind it, and darkens the foot of the wall's lit
-//! side; where a body ends, and nothing lies behind its edge, a surface above it within reach is taken for its own.
+//! Limits: folds steeper than the reach shade as they do in a map. Where a wall is thinner than the kernel, taps behind it
+//! find the floor of its other side, and the foot of its lit side is darkened. Where the receiver's surface is narrower than
+//! the kernel, a surface beside it that rises within reach is taken for its own.
 
 use glam::{DVec2, DVec3};
 use scumble_core::{Bias, Fit, ReceiverPlane};
@@ -38,34 +40,30 @@ pub struct Surroundings<'a> {
     receiver: &'a ReceiverPlane,
     /// The receiver on the reference plane.
     middle: DVec2,
+    /// The mesh that shades the receiver itself.
+    shading_mesh: Option<usize>,
 }
 
 impl<'a> Surroundings<'a> {
     /// Of the receiver at `position`, which has the tangent plane `receiver`.
     pub fn new(rays: &'a Rays, fit: &'a Fit, receiver: &'a ReceiverPlane, position: DVec3) -> Self {
-        Self { rays, fit, receiver, middle: fit.plane_from_world(position) }
+        let mut around = Self { rays, fit, receiver, middle: fit.plane_from_world(position), shading_mesh: None };
+        around.shading_mesh = around.first(DVec2::ZERO, receiver.depth_at(DVec2::ZERO)).map(|hit| hit.mesh);
+        around
     }
 
     /// Depth of what shades the tap at `offset`, where the tangent plane has the depth `plane_depth`; `None` where it is lit.
     /// What lies before the near plane shades nothing.
     pub fn occluder_depth(&self, offset: DVec2, plane_depth: f64, radius_world: f64) -> Option<f64> {
-        let epsilon = self.rays.epsilon();
-        let end_depth = plane_depth - epsilon;
-        if end_depth <= self.fit.depth_near {
-            return None;
-        }
-        let start = self.at(offset, self.fit.depth_near);
-        if self.rays.free(start, self.at(offset, end_depth)) {
-            return None;
-        }
-        let direction = self.at(offset, self.fit.depth_far) - start;
-        let first = self.rays.first_hit(start, direction)?;
+        let first = self.first(offset, plane_depth)?;
         let first_depth = self.fit.depth(first.position);
         let gap = plane_depth - first_depth;
-        if gap > self.reach(&first, radius_world) {
+        if gap > self.reach(&first, radius_world) || self.shading_mesh == Some(first.mesh) {
             return Some(first_depth);
         }
 
+        let epsilon = self.rays.epsilon();
+        let (start, direction) = self.ray(offset);
         let radius = self.at_receiver(radius_world);
         let hits = self.rays.all_hits(start, direction);
         let depth = |hit: &Hit| self.fit.depth(hit.position);
@@ -75,6 +73,22 @@ impl<'a> Surroundings<'a> {
         let is_own =
             own.is_some_and(|own| !layers.any(|layer| is_nearer(layer, own) && is_open(layer, &hits, epsilon)));
         (!is_own).then_some(first_depth)
+    }
+
+    /// The first surface on the tap's ray, if it lies before `plane_depth`.
+    fn first(&self, offset: DVec2, plane_depth: f64) -> Option<Hit> {
+        let end_depth = plane_depth - self.rays.epsilon();
+        let (start, direction) = self.ray(offset);
+        if end_depth <= self.fit.depth_near || self.rays.free(start, self.at(offset, end_depth)) {
+            return None;
+        }
+        self.rays.first_hit(start, direction)
+    }
+
+    /// Start on the near plane, and direction, of the tap's ray.
+    fn ray(&self, offset: DVec2) -> (DVec3, DVec3) {
+        let start = self.at(offset, self.fit.depth_near);
+        (start, self.at(offset, self.fit.depth_far) - start)
     }
 
     /// See the module; in metres of depth.
