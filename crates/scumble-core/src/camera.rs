@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check, direction, finite};
-use crate::polyhedron::{HalfSpace, Polyhedron};
+use crate::polyhedron::HalfSpace;
 
 /// A perspective camera in world space.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -94,8 +94,7 @@ impl Camera {
 
     /// The view volume V as an intersection of half spaces, about `origin`: near, left, right, bottom, top, and far
     /// unless it is infinite.
-    #[must_use]
-    pub fn half_spaces(&self, origin: DVec3) -> Vec<HalfSpace> {
+    pub(crate) fn half_spaces(&self, origin: DVec3) -> Vec<HalfSpace> {
         let forward = self.forward();
         let right = forward.cross(self.up).normalize();
         let up = right.cross(forward);
@@ -114,28 +113,11 @@ impl Camera {
         }
         sides
     }
-
-    /// The view volume as a polyhedron, its far plane no further than `far_at_most`.
-    #[must_use]
-    pub fn frustum(&self, far_at_most: f64) -> Polyhedron {
-        let forward = self.forward();
-        let right = forward.cross(self.up).normalize();
-        let up = right.cross(forward);
-        let half_height = 0.5 * self.height_at_unit_distance();
-        let corner = |i: usize| {
-            let distance = if i & 4 == 0 { self.near } else { self.far.min(far_at_most) };
-            let x = if i & 1 == 0 { -half_height } else { half_height } * self.aspect;
-            let y = if i & 2 == 0 { -half_height } else { half_height };
-            self.eye + distance * (forward + x * right + y * up)
-        };
-        Polyhedron::from_corners(std::array::from_fn(corner))
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec3;
 
     fn camera() -> Camera {
         Camera {
@@ -167,16 +149,6 @@ mod tests {
             inside += usize::from(in_clip);
         }
         assert!(inside > 100, "{inside}");
-    }
-
-    #[test]
-    fn the_corners_of_the_frustum_are_the_corners_of_clip_space() {
-        let camera = camera();
-        for corner in camera.frustum(f64::INFINITY).vertices() {
-            let ndc = camera.clip_from_world().project_point3(corner);
-            assert!((ndc.x.abs() - 1.0).abs() < 1e-9 && (ndc.y.abs() - 1.0).abs() < 1e-9, "{ndc}");
-            assert!(ndc.z.abs() < 1e-9 || (ndc.z - 1.0).abs() < 1e-9, "{ndc}");
-        }
     }
 
     #[test]

@@ -63,7 +63,6 @@ pub use fit::{Fit, fit};
 pub use kernel::{half_plane_under_disc, pixel_hash, poisson_disc, rotation_angle};
 pub use light::Light;
 pub use policy::{Demand, Ladder, Size, SizePolicy, size_achieved};
-pub use polyhedron::{HalfSpace, Polyhedron};
 pub use relation::{RATIO_MAX, ROUNDING_SLACK, Relation, whole_texels};
 pub use relation_file::{
     ConditionEstimate, Estimate, FormTests, NullTest, PopulationPoint, RelationFile, SCHEMA, SessionHash,

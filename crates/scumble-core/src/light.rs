@@ -94,8 +94,7 @@ impl Light {
 
     /// The light's volume L about `origin`: all of space for a directional light, a pyramid of 16 sides around the cone
     /// for a spot.
-    #[must_use]
-    pub fn half_spaces(&self, origin: DVec3) -> Vec<HalfSpace> {
+    pub(crate) fn half_spaces(&self, origin: DVec3) -> Vec<HalfSpace> {
         let Self::Spot { position, cone_half_angle, .. } = *self else {
             return Vec::new();
         };

@@ -14,68 +14,53 @@ const ON_PLANE: f64 = 1e-12;
 
 /// All points p with `normal . p + offset >= 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfSpace {
-    normal: DVec3,
+pub(crate) struct HalfSpace {
+    /// Unit normal of the boundary, pointing inside.
+    pub(crate) normal: DVec3,
     offset: f64,
 }
 
 impl HalfSpace {
     /// The half space whose boundary contains `point` and into which `inward` points; `inward` of any length but zero.
-    #[must_use]
-    pub fn through(point: DVec3, inward: DVec3) -> Self {
+    pub(crate) fn through(point: DVec3, inward: DVec3) -> Self {
         let normal = inward.normalize();
         Self { normal, offset: -normal.dot(point) }
     }
 
-    /// Unit normal of the boundary, pointing inside.
-    #[must_use]
-    pub fn normal(&self) -> DVec3 {
-        self.normal
-    }
-
     /// Signed distance of `point` from the boundary, positive inside.
-    #[must_use]
-    pub fn distance(&self, point: DVec3) -> f64 {
+    pub(crate) fn distance(&self, point: DVec3) -> f64 {
         self.normal.dot(point) + self.offset
     }
 }
 
 /// A convex body of finite size.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Polyhedron {
+pub(crate) struct Polyhedron {
+    /// Loops of vertices.
     faces: Vec<Vec<DVec3>>,
 }
 
 impl Polyhedron {
     /// The body of six faces with these corners; bit 0 of the index chooses x, bit 1 y, bit 2 z, as of
     /// [`Aabb::corners`](crate::Aabb::corners). Corners may coincide.
-    #[must_use]
-    pub fn from_corners(corners: [DVec3; 8]) -> Self {
+    pub(crate) fn from_corners(corners: [DVec3; 8]) -> Self {
         const FACES: [[usize; 4]; 6] =
             [[0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6], [0, 1, 3, 2], [4, 6, 7, 5]];
         Self { faces: FACES.iter().map(|face| face.iter().map(|&i| corners[i]).collect()).collect() }
     }
 
     /// Whether it holds no point.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.faces.is_empty()
     }
 
     /// All vertices, each once for every face that it belongs to.
-    pub fn vertices(&self) -> impl Iterator<Item = DVec3> + '_ {
+    pub(crate) fn vertices(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.faces.iter().flatten().copied()
     }
 
-    /// The faces' loops of vertices.
-    #[must_use]
-    pub fn faces(&self) -> &[Vec<DVec3>] {
-        &self.faces
-    }
-
     /// The part of the body inside `side`, its boundary included.
-    #[must_use]
-    pub fn clip(&self, side: &HalfSpace) -> Self {
+    pub(crate) fn clip(&self, side: &HalfSpace) -> Self {
         let tolerance = ON_PLANE * self.size();
         let distance = |p: DVec3| {
             let d = side.distance(p);
@@ -99,8 +84,7 @@ impl Polyhedron {
     }
 
     /// The part of the body inside all of `sides`.
-    #[must_use]
-    pub fn clip_all(&self, sides: &[HalfSpace]) -> Self {
+    pub(crate) fn clip_all(&self, sides: &[HalfSpace]) -> Self {
         sides.iter().fold(self.clone(), |body, side| body.clip(side))
     }
 
@@ -178,7 +162,7 @@ mod tests {
                 (1..face.len().max(1) - 1).map(|i| (face[i] - face[0]).cross(face[i + 1] - face[0])).sum();
             area.dot(face[0] - center).abs() / 6.0
         };
-        body.faces().iter().filter(|face| face.len() > 2).map(fan).sum()
+        body.faces.iter().filter(|face| face.len() > 2).map(fan).sum()
     }
 
     #[test]
@@ -192,7 +176,7 @@ mod tests {
     #[test]
     fn the_cut_through_the_middle_of_a_cube_is_a_hexagon() {
         let half = cube().clip(&HalfSpace::through(DVec3::ZERO, DVec3::ONE));
-        assert!(half.faces().iter().any(|face| face.len() == 6));
+        assert!(half.faces.iter().any(|face| face.len() == 6));
     }
 
     #[test]

@@ -33,7 +33,7 @@ fn vertices(sides: &[HalfSpace]) -> Vec<DVec3> {
         for j in 0..i {
             for k in 0..j {
                 let (a, b, c) = (&sides[i], &sides[j], &sides[k]);
-                let planes = DMat3::from_cols(a.normal(), b.normal(), c.normal()).transpose();
+                let planes = DMat3::from_cols(a.normal, b.normal, c.normal).transpose();
                 if planes.determinant().abs() < 1e-9 {
                     continue;
                 }
