@@ -84,7 +84,7 @@ impl Study {
                 screen::trial(ui, presentation, &self.experiment)?
             }
             Stage::Feedback { correct } => screen::feedback(ui, correct),
-            Stage::Break { round, rounds } => screen::rest(ui, round, rounds),
+            Stage::Rest { round, rounds } => screen::rest(ui, round, rounds),
             Stage::Finished => screen::finished(ui),
         };
         Ok(if asked_to_pause { Some(Action::Pause) } else { action })

@@ -32,7 +32,7 @@ pub enum Stage {
     /// Two pictures.
     Trial(Trial),
     /// A rest before a round; before round 1 it tells that there is no feedback from here on.
-    Break {
+    Rest {
         /// The round that follows, from 1.
         round: u32,
         /// Number of rounds.
@@ -50,7 +50,7 @@ impl Stage {
             Self::Practice(_) => "practice",
             Self::Feedback { .. } => "feedback",
             Self::Trial(_) => "trial",
-            Self::Break { .. } => "break",
+            Self::Rest { .. } => "rest",
             Self::Finished => "finished",
         }
     }
@@ -109,8 +109,8 @@ impl Experiment {
     pub fn proceed(&mut self) -> Result<(), Error> {
         self.stage = match self.stage {
             Stage::Instructions | Stage::Feedback { .. } => self.next_practice(),
-            Stage::Break { .. } => self.next_trial(),
-            _ => return Err(self.refuse("proceed", "instructions, feedback and break")),
+            Stage::Rest { .. } => self.next_trial(),
+            _ => return Err(self.refuse("proceed", "instructions, feedback and rest")),
         };
         Ok(())
     }
@@ -216,7 +216,7 @@ impl Experiment {
     }
 
     fn rest(&self) -> Stage {
-        Stage::Break { round: self.schedule.round_number(), rounds: self.schedule.rounds() as u32 }
+        Stage::Rest { round: self.schedule.round_number(), rounds: self.schedule.rounds() as u32 }
     }
 
     fn place(&self, purpose: Purpose, number: u32, round: u32) -> Place {

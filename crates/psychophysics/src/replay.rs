@@ -35,7 +35,7 @@ impl Experiment {
     }
 
     fn replay(&mut self, index: usize, event: &Event, answered: &Answered) -> Result<(), Error> {
-        while matches!(self.stage(), Stage::Instructions | Stage::Feedback { .. } | Stage::Break { .. }) {
+        while matches!(self.stage(), Stage::Instructions | Stage::Feedback { .. } | Stage::Rest { .. }) {
             self.proceed()?;
         }
         let recorded = &answered.trial;

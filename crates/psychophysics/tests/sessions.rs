@@ -70,7 +70,7 @@ fn a_session_has_four_rounds_of_three_sizes_and_each_size_ten_to_twenty_eight_tr
 }
 
 #[test]
-fn every_order_of_the_rounds_occurs_first() {
+fn every_round_comes_first_in_some_session() {
     let mut first_rounds: Vec<String> = (0..40)
         .map(|seed| {
             let experiment = Experiment::new(Protocol::two_alternative(), seed).unwrap();
@@ -149,16 +149,16 @@ fn practice_gives_feedback_and_teaches_no_quest() {
         assert_eq!(*experiment.stage(), Stage::Feedback { correct });
         experiment.proceed().unwrap();
     }
-    let first_break = Stage::Break { round: 1, rounds: 4 };
-    assert_eq!(*experiment.stage(), first_break);
+    let first_rest = Stage::Rest { round: 1, rounds: 4 };
+    assert_eq!(*experiment.stage(), first_rest);
     let prior = Quest::new(protocol.quest_config()).unwrap();
     assert!(experiment.tracks().iter().all(|track| *track.quest() == prior));
 }
 
 #[test]
-fn a_break_stands_before_every_round() {
+fn a_rest_stands_before_every_round() {
     let mut experiment = at_first_trial(Protocol::two_alternative());
-    let mut breaks = vec![];
+    let mut rests = vec![];
     let person = observer(1);
     while *experiment.stage() != Stage::Finished {
         match *experiment.stage() {
@@ -170,14 +170,14 @@ fn a_break_stands_before_every_round() {
                 assert!(progress.trials_at_least <= progress.trials_at_most);
                 experiment.answer(person.answer(&trial), 1.0).unwrap();
             }
-            Stage::Break { round, rounds } => {
-                breaks.push((round, rounds));
+            Stage::Rest { round, rounds } => {
+                rests.push((round, rounds));
                 experiment.proceed().unwrap();
             }
             stage => panic!("{}", stage.name()),
         }
     }
-    assert_eq!(breaks, [(2, 4), (3, 4), (4, 4)]);
+    assert_eq!(rests, [(2, 4), (3, 4), (4, 4)]);
     let progress = experiment.progress();
     assert_eq!(progress.trials, progress.trials_at_least);
     assert_eq!(progress.trials, progress.trials_at_most);
@@ -232,10 +232,10 @@ fn calls_that_the_stage_does_not_take_are_refused_and_change_nothing() {
 }
 
 #[test]
-fn a_protocol_without_practice_starts_with_the_first_break() {
+fn a_protocol_without_practice_starts_with_the_first_rest() {
     let mut protocol = Protocol::two_alternative();
     protocol.practice.ratios.clear();
     let mut experiment = Experiment::new(protocol, 1).unwrap();
     experiment.proceed().unwrap();
-    assert!(matches!(experiment.stage(), Stage::Break { round: 1, .. }));
+    assert!(matches!(experiment.stage(), Stage::Rest { round: 1, .. }));
 }
