@@ -1,8 +1,9 @@
 // What every shadow shader reads: one uniform block for the lights, one for the taps, the maps and their sampler.
 //
 // Spaces: *world* is relative to the origin given to `Shadows`; *light* is that of `scumble_core::Light` with z turned
-// round, so that z is the depth along the light; the *reference plane* is any plane across a directional light and the near plane of a spot; *map depth* is
-// what the map holds, 0 at `depth_near` and 1 at `depth_far`; *texels* count from the corner of the light's viewport.
+// round, so that z is the depth along the light; the *reference plane* is any plane across a directional light and the
+// near plane of a spot; *map depth* is what the map holds, 0 at `depth_near` and 1 at `depth_far`; *texels* count from
+// the corner of the light's viewport.
 // Each struct has a `#[repr(C)]` twin in `src/uniforms.rs`; a test compares offsets and constants.
 
 const SHADOW_LIGHTS_MAX: u32 = 4u;
@@ -30,7 +31,7 @@ struct ShadowLight {
     // 1 for a spot, 0 for a directional light.
     is_spot: u32,
     layer: u32,
-    // Tangent of the angular radius of a directional light; radius of a spot's disc, world length.
+    // Tangent of the half angle of a directional light; radius of a spot's disc, world length.
     light_size: f32,
     // Radius of the fixed kernel at the reference plane, world length.
     radius_world: f32,

@@ -4,6 +4,7 @@
 // z_r receiver, z_b mean blocker, z_n near plane, light-space depths; radii at the reference plane.
 // CPU twin: `scumble_core::filter`.
 
+// The nearest occluder that a spot searches for, as a share of the receiver's depth; `filter::SEARCH_SHARE` of the CPU.
 const SHADOW_SEARCH_SHARE: f32 = 0.2;
 
 struct ShadowBlockers {

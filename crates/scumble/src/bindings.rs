@@ -3,7 +3,7 @@
 use scumble_core::Taps;
 
 use crate::maps::Maps;
-use crate::uniforms::{BLOCKER_TAPS, LightsUniform, PCF_TAPS, TapsUniform};
+use crate::uniforms::{LightsUniform, TapsUniform};
 
 /// Uniform buffers, sampler, layout and group.
 #[derive(Debug)]
@@ -32,7 +32,7 @@ impl Bindings {
             usage: wgpu::BufferUsages::UNIFORM,
             mapped_at_creation: true,
         });
-        let points = Taps::new(BLOCKER_TAPS as usize, PCF_TAPS as usize);
+        let points = Taps::default();
         if let Ok(mut view) = taps.get_mapped_range_mut(..) {
             view.copy_from_slice(bytemuck::bytes_of(&TapsUniform::new(&points.filter, &points.blocker)));
         }

@@ -119,10 +119,7 @@ impl Measure {
         let camera = request.camera.checked()?;
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&camera_uniform(&camera, size_px, request)));
 
-        let rebound = self.bind(device, prepass);
-        let Some((_, bind_group)) = &self.bound else {
-            return Ok(Recorded { rebound, copied: false });
-        };
+        let (bind_group, rebound) = self.bind(device, prepass);
         encoder.copy_buffer_to_buffer(&self.nothing, 0, &self.demand, 0, self.demand.size());
         let groups = size_px.map(|side| side.div_ceil(request.stride).div_ceil(GROUP_SIDE));
         {
@@ -132,7 +129,7 @@ impl Measure {
             });
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, shadow_bind_group, &[]);
-            pass.set_bind_group(1, bind_group, &[]);
+            pass.set_bind_group(1, &bind_group, &[]);
             pass.dispatch_workgroups(groups[0], groups[1], request.light_count);
         }
         let copied = self.ring.record(encoder, &self.demand, request.scale);
@@ -151,10 +148,12 @@ impl Measure {
         )
     }
 
-    /// Binds the prepass; true when its bind group had to be created.
-    fn bind(&mut self, device: &wgpu::Device, prepass: &wgpu::TextureView) -> bool {
-        if self.bound.as_ref().is_some_and(|(view, _)| view == prepass) {
-            return false;
+    /// The bind group of the prepass, and whether it had to be created.
+    fn bind(&mut self, device: &wgpu::Device, prepass: &wgpu::TextureView) -> (wgpu::BindGroup, bool) {
+        if let Some((view, group)) = &self.bound
+            && view == prepass
+        {
+            return (group.clone(), false);
         }
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("scumble measure"),
@@ -165,8 +164,8 @@ impl Measure {
                 wgpu::BindGroupEntry { binding: 2, resource: self.demand.as_entire_binding() },
             ],
         });
-        self.bound = Some((prepass.clone(), group));
-        true
+        self.bound = Some((prepass.clone(), group.clone()));
+        (group, true)
     }
 }
 

@@ -3,13 +3,14 @@
 //! Field order, offsets and constants are those of the shaders; `tests/shaders.rs` compares them with naga's layouts.
 
 use bytemuck::{Pod, Zeroable};
+use scumble_core::Taps;
 
 /// Lights that one set of uniforms holds; `SHADOW_LIGHTS_MAX` of the shaders.
 pub const LIGHTS_MAX: u32 = 4;
-/// Taps of the filter kernel (Kreuzer 2017, 5.1.3); `SHADOW_PCF_TAPS` of the shaders.
-pub const PCF_TAPS: u32 = 25;
+/// Taps of the filter kernel; `SHADOW_PCF_TAPS` of the shaders.
+pub const PCF_TAPS: u32 = Taps::FILTER as u32;
 /// Taps of the blocker search; `SHADOW_BLOCKER_TAPS` of the shaders.
-pub const BLOCKER_TAPS: u32 = 16;
+pub const BLOCKER_TAPS: u32 = Taps::BLOCKER as u32;
 
 /// One light as the shaders see it. Spaces and units: head of `shader/bindings.wgsl`.
 #[repr(C)]
