@@ -10,7 +10,7 @@ use std::path::Path;
 const CAMERA_SIDE: DVec3 = DVec3::new(0.55, 0.45, 1.0);
 /// From the middle of the scene towards the sun: from behind the left shoulder, 38 degrees above the horizon.
 const SUN_SIDE: DVec3 = DVec3::new(-0.75, 0.75, 0.6);
-/// A hazy sun, angular radius in radians (2 degrees): soft enough that the relation binds at common sizes.
+/// A hazy sun, half angle in radians (2 degrees): soft enough that the relation binds at common sizes.
 const SUN_HALF_ANGLE: f64 = 0.035;
 /// Kernel radius as a share of the scene's diagonal: about 20 px at 1280 x 720.
 const PCF_RADIUS_SHARE: f64 = 0.006;
@@ -139,11 +139,7 @@ mod tests {
                 table().into_iter().map(|m| m.transformed(&glam::DAffine3::from_scale(DVec3::splat(scale)))).collect();
             let bounds = bounds_of(&meshes).unwrap();
             let scene = compose(Path::new("table.obj"), meshes);
-            for i in 0..8 {
-                let pick = |axis: usize| {
-                    if i >> axis & 1 == 1 { bounds.max[axis] } else { bounds.min[axis] }
-                };
-                let corner = DVec3::new(pick(0), pick(1), pick(2));
+            for corner in bounds.corners() {
                 let ndc = scene.camera.clip_from_world().project_point3(corner);
                 assert!(ndc.x.abs() <= 1.0 && ndc.y.abs() <= 1.0 && (0.0..=1.0).contains(&ndc.z));
             }

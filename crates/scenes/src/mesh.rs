@@ -59,10 +59,8 @@ impl Mesh {
 
 /// The smallest box around all positions of all meshes; `None` when there are none.
 pub fn bounds_of(meshes: &[Mesh]) -> Option<Aabb> {
-    let mut corners = meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3());
-    let first = corners.next()?;
-    let (min, max) = corners.fold((first, first), |(min, max), p| (min.min(p), max.max(p)));
-    Some(Aabb { min, max })
+    let bounds = Aabb::from_points(meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3()));
+    (!bounds.is_empty()).then_some(bounds)
 }
 
 /// `transpose(inverse(m))` up to a positive factor, defined for singular `m` too: the cofactor matrix with the sign of

@@ -42,7 +42,7 @@ pub fn load_asset(assets: &Path, name: &str) -> Result<Vec<Mesh>, Error> {
     let Some(bounds) = bounds_of(&meshes) else {
         return Ok(meshes);
     };
-    let middle = (bounds.min + bounds.max) / 2.0;
+    let middle = bounds.center();
     let foot = DVec3::new(middle.x, bounds.min.y, middle.z);
     let metres_from_model =
         DAffine3::from_scale(DVec3::splat(METRES_PER_CENTIMETRE)) * DAffine3::from_translation(-foot);

@@ -2,6 +2,7 @@
 
 use crate::Mesh;
 use glam::{DVec3, Vec3};
+use scumble_core::Aabb;
 
 /// A horizontal square at height `center.y`, normal up, `size` metres on a side, two triangles.
 pub fn ground(name: &str, center: DVec3, size: f64, linear_color: Vec3) -> Mesh {
@@ -14,17 +15,12 @@ pub fn ground(name: &str, center: DVec3, size: f64, linear_color: Vec3) -> Mesh 
 
 /// An axis-aligned box between two corners, normals outwards, twelve triangles.
 pub fn cuboid(name: &str, min: DVec3, max: DVec3, linear_color: Vec3) -> Mesh {
-    // Corner i takes max where bit 0, 1, 2 of i is set for x, y, z; faces counter-clockwise from outside.
+    // Indices into `Aabb::corners`, counter-clockwise from outside.
     const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-    let corner = |i: usize| {
-        let pick = |axis: usize| {
-            if i >> axis & 1 == 1 { max[axis] } else { min[axis] }
-        };
-        DVec3::new(pick(0), pick(1), pick(2))
-    };
+    let corners = Aabb { min, max }.corners();
     let mut mesh = empty(name, linear_color);
     for face in FACES {
-        push_quad(&mut mesh, face.map(corner));
+        push_quad(&mut mesh, face.map(|i| corners[i]));
     }
     mesh
 }

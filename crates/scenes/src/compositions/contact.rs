@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use scumble_core::{Camera, Light};
 use std::path::Path;
 
-/// A box of 1 x 1.5 x 1 m on a plane of 12 x 12 m, under a sun of 2.5 degrees angular radius. Needs no assets.
+/// A box of 1 x 1.5 x 1 m on a plane of 12 x 12 m, under a sun of half angle 2.5 degrees. Needs no assets.
 pub fn contact(_assets: &Path) -> Result<Scene, Error> {
     Ok(Scene {
         name: "contact".to_owned(),

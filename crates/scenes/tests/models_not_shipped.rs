@@ -1,13 +1,14 @@
-//! Scenes that the project does not ship, read from `../shared/scenes` beside the repository.
+//! Models that are too large to ship, read from the folder that the environment variable SCUMBLE_MODELS names.
 //!
-//! Run with `cargo test -p scumble-scenes --test shared_scenes -- --ignored` where that folder is.
+//! `SCUMBLE_MODELS=models cargo test -p scumble-scenes --test models_not_shipped -- --ignored`
 
 use scumble_scenes::{Scene, open};
 use std::path::PathBuf;
 
 fn scene(path: &str) -> Scene {
-    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes").join(path);
-    open(&file.display().to_string(), &PathBuf::new()).expect("the file is in ../shared/scenes")
+    let folder = std::env::var_os("SCUMBLE_MODELS").expect("SCUMBLE_MODELS names a folder");
+    let file = PathBuf::from(folder).join(path);
+    open(&file.display().to_string(), &PathBuf::new()).expect("the folder holds the model")
 }
 
 fn has_ground(scene: &Scene) -> bool {
@@ -15,7 +16,7 @@ fn has_ground(scene: &Scene) -> bool {
 }
 
 #[test]
-#[ignore = "needs ../shared/scenes, which is not part of the repository"]
+#[ignore = "needs models that are not part of the repository, in the folder SCUMBLE_MODELS"]
 fn a_ship_of_three_materials_and_external_buffers_gets_a_ground() {
     let ship = scene("dutch_ship/dutch_ship_medium_1k.gltf");
     assert!(has_ground(&ship));
@@ -26,7 +27,7 @@ fn a_ship_of_three_materials_and_external_buffers_gets_a_ground() {
 }
 
 #[test]
-#[ignore = "needs ../shared/scenes, which is not part of the repository"]
+#[ignore = "needs models that are not part of the repository, in the folder SCUMBLE_MODELS"]
 fn a_town_in_one_binary_file_stands_on_its_own_streets() {
     let town = scene("zdm2/zdm2.glb");
     assert!(!has_ground(&town));
