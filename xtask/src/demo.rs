@@ -5,16 +5,14 @@
 use crate::packages;
 use crate::report;
 use crate::run;
-use crate::summary::Summary;
+use crate::summary::{Summary, TRUE_RATIO};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-/// People in the simulated study. Kreuzer asked ten; twelve is a multiple of the four orders of the rounds.
+/// People in the simulated study: two more than Kreuzer asked. With them the ratio has a standard error of 7 %.
 const OBSERVERS: &str = "12";
-/// Their median threshold in texels: Kreuzer (2017), Eq. 5.1.
-const TRUE_RATIO: &str = "3.47";
 /// Any other seed gives another simulated study.
 const SEED: &str = "2017";
 
@@ -36,7 +34,8 @@ pub fn run(quick: bool) -> Result<Summary> {
 
     println!("\n2/5  Study: {OBSERVERS} simulated observers, true ratio {TRUE_RATIO}");
     let sessions = folder.join("sessions");
-    let simulate = ["simulate", "--observers", OBSERVERS, "--seed", SEED, "--ratio", TRUE_RATIO, "--out"];
+    let ratio = TRUE_RATIO.to_string();
+    let simulate = ["simulate", "--observers", OBSERVERS, "--seed", SEED, "--ratio", &ratio, "--out"];
     program("scumble-analysis", &[&simulate[..], &[path(&sessions)?]].concat())?;
 
     println!("\n3/5  Analysis: thresholds, then the relation");

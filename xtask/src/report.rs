@@ -2,7 +2,7 @@
 //!
 //! Pictures stay files of their own beside the page, at full size; the page scales them to its width.
 
-use crate::summary::{Row, Spread, Summary};
+use crate::summary::{Row, Spread, Summary, TRUE_RATIO};
 use anyhow::{Context, Result};
 use std::fmt::Write;
 use std::path::Path;
@@ -40,7 +40,7 @@ fn study(summary: &Summary) -> String {
         "<h1>How small may a soft shadow's map be?</h1>\
          <p class=lead>{people} simulated people judged {trials} pairs of filtered edges. A filter hides a texel for them \
          when its radius is <b>{value:.2} texels</b> (95 % interval {low:.2} to {high:.2}; the people were made with a \
-         median of 3.47). Sized by that number, the shadow maps below have <b>at least {least:.0} times fewer texels</b> \
+         median of {TRUE_RATIO}). Sized by that number, the shadow maps below have <b>at least {least:.0} times fewer texels</b> \
          than 2048 x 2048.</p>\
          <h2>1. What they saw</h2>\
          <p>A straight silhouette, and the same silhouette as a shadow map stores it (a stair at 45 degrees, or one \

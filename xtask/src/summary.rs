@@ -7,7 +7,7 @@ use std::fmt;
 use std::path::Path;
 
 /// Median ratio of the simulated people: Kreuzer (2017), Eq. 5.1.
-const TRUE_RATIO: f64 = 3.47;
+pub const TRUE_RATIO: f64 = 3.47;
 /// Largest share by which twelve people may miss it. Between people the SD is 0.1 log10, so the mean of twelve has a
 /// standard error of 7 %.
 const RATIO_TOLERANCE: f64 = 0.15;
