@@ -10,7 +10,7 @@ pub(crate) const GROUND: Color32 = Color32::from_gray(128);
 pub(crate) const INK: Color32 = Color32::from_gray(12);
 /// Type that may be overlooked; 4.5 to 1 against the ground.
 pub(crate) const FAINT_INK: Color32 = Color32::from_gray(24);
-/// Lines, tracks, and buttons at rest.
+/// Buttons at rest.
 const RAISED: Color32 = Color32::from_gray(146);
 const HOVERED: Color32 = Color32::from_gray(160);
 const PRESSED: Color32 = Color32::from_gray(112);
