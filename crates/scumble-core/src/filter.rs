@@ -178,7 +178,8 @@ pub fn pcss(
 mod tests {
     use super::*;
     use crate::Bias;
-    use crate::fit::tests_support::{lamp_over_room, sun_over_room};
+    use crate::fit::fit;
+    use crate::fit::tests_support::{lamp_over_room, observer, room, sun_over_room};
     use crate::kernel::half_plane_under_disc;
     use glam::DVec3;
 
@@ -244,6 +245,21 @@ mod tests {
         assert!((filter_radius_world(&sun, 2.0 + gap, 2.0) - gap * 0.05_f64.tan()).abs() < 1e-12);
         let near = sun.depth_near;
         assert_eq!(search_radius_world(&sun, near + 1.0), filter_radius_world(&sun, near + 1.0, near));
+    }
+
+    #[test]
+    fn a_lamp_among_its_occluders_searches_a_penumbra_of_four_times_its_radius() {
+        let inside = Light::Spot {
+            position: DVec3::new(0.5, 2.0, -0.5),
+            direction: DVec3::NEG_Y,
+            cone_half_angle: 0.8,
+            radius_world: 0.2,
+        };
+        let fit = fit(&observer(), &room(), &inside, true).unwrap().unwrap();
+        let receiver = 2.3;
+        assert!(fit.depth_near < 0.1 * SEARCH_SHARE * receiver);
+        let at_receiver = search_radius_world(&fit, receiver) / fit.reference_from_depth(receiver);
+        assert!((at_receiver - 4.0 * 0.2).abs() < 1e-12, "{at_receiver}");
     }
 
     #[test]

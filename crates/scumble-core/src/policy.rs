@@ -184,11 +184,7 @@ impl Axis {
 
 /// The larger of two radii; keeps NaN and a minus sign, for the relation to refuse.
 fn clamped(radius: f64, least: f64) -> f64 {
-    if radius >= least && radius.is_sign_positive() || radius.is_nan() || radius.is_sign_negative() {
-        radius
-    } else {
-        least
-    }
+    if radius.is_nan() || radius.is_sign_negative() { radius } else { radius.max(least) }
 }
 
 /// What a size achieves against a demand, or by itself.
