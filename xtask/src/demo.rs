@@ -47,7 +47,7 @@ pub fn run(quick: bool) -> Result<Summary> {
 
     println!("\n4/5  Renderer: real scenes, fixed 2048 x 2048 maps against adaptive ones");
     let bench = folder.join("bench");
-    let mut render = vec!["bench", "--relation", path(&relation)?, "--out", path(&bench)?];
+    let mut render = vec!["bench", "--sizes", "2048,adaptive", "--relation", path(&relation)?, "--out", path(&bench)?];
     if quick {
         render.push("--quick");
     }

@@ -67,12 +67,12 @@ impl Verdict {
 impl Convergence {
     /// Refuses numbers that no QUEST could meet; the error names the field.
     pub fn check(&self) -> Result<(), Error> {
-        let fields = [
-            ("convergence.interval_width_log10", self.interval_width_log10, 0.0),
-            ("convergence.half_agreement_sds", self.half_agreement_sds, 0.0),
+        let positive = [
+            ("convergence.interval_width_log10", self.interval_width_log10),
+            ("convergence.half_agreement_sds", self.half_agreement_sds),
         ];
-        for (field, value, above) in fields {
-            require(value.is_finite() && value > above, field, value, "a finite number above 0")?;
+        for (field, value) in positive {
+            require(value.is_finite() && value > 0.0, field, value, "a finite number above 0")?;
         }
         require(
             self.edge_distance_log10.is_finite() && self.edge_distance_log10 >= 0.0,

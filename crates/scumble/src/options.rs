@@ -30,7 +30,8 @@ pub struct Options {
     /// Origin of the world space that shaders and vertex buffers use, in world coordinates. Put it near the camera or the
     /// scene where coordinates are large: what reaches the GPU is relative to it, in f32.
     pub origin_world: DVec3,
-    /// Every how many pixels, along x and along y, `measure` looks at one. 4 costs a twelfth of 1.
+    /// Every how many pixels, along x and along y, `measure` looks at one. On llvmpipe 4 costs a
+    /// twelfth of 1.
     pub measure_stride: u32,
 }
 
