@@ -8,6 +8,7 @@ use crate::polygon::has_area;
 use crate::shading::{Loose, index};
 use crate::{Error, Mesh};
 use glam::{DAffine3, DMat4, Mat4, Vec3};
+use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use std::path::Path;
 
@@ -99,14 +100,21 @@ impl Source<'_> {
             return Ok(Loose::default());
         }
 
-        // Check every accessor before it is read: the reader trusts the lengths in the file.
+        // Check every accessor before it is read: the reader trusts the types and lengths in the file.
         let Some(position_accessor) = primitive.get(&gltf::Semantic::Positions) else {
             return Ok(Loose::default());
         };
         let normal_accessor = primitive.get(&gltf::Semantic::Normals);
-        let accessors = [Some(position_accessor), normal_accessor, primitive.indices()];
-        for accessor in accessors.iter().flatten() {
+        for accessor in [Some(position_accessor), normal_accessor].iter().flatten() {
+            let is_vector = accessor.data_type() == DataType::F32 && accessor.dimensions() == Dimensions::Vec3;
+            self.check_type(accessor, is_vector, "allowed are positions and normals of three 32-bit floats")?;
             self.check_range(accessor)?;
+        }
+        if let Some(accessor) = primitive.indices() {
+            let is_whole = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
+            let is_index = is_whole && accessor.dimensions() == Dimensions::Scalar;
+            self.check_type(&accessor, is_index, "allowed are indices of one unsigned integer")?;
+            self.check_range(&accessor)?;
         }
 
         // Read.
@@ -145,6 +153,15 @@ impl Source<'_> {
             }
         }
         Ok(loose)
+    }
+
+    /// Refuses an accessor of a type that the reader does not take.
+    fn check_type(&self, accessor: &gltf::Accessor<'_>, good: bool, allowed: &'static str) -> Result<(), Error> {
+        if good {
+            return Ok(());
+        }
+        let place = format!("accessor {}", accessor.index());
+        Err(self.content(place, format!("{:?} of {:?}", accessor.dimensions(), accessor.data_type()), allowed))
     }
 
     /// Whether an accessor, its view and its buffer agree about their lengths.

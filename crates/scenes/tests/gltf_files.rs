@@ -147,6 +147,21 @@ fn accessors_beyond_their_buffer_are_refused() {
 }
 
 #[test]
+fn accessors_of_another_type_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("triangle.glb");
+    for (from, to, named) in [
+        ("5126", "5121", "accessor 0: Vec3 of U8"),
+        ("VEC3", "VEC2", "accessor 0: Vec2 of F32"),
+        ("5123", "5126", "accessor 1: Scalar of F32"),
+        ("SCALAR", "VEC2", "accessor 1: Vec2 of U16"),
+    ] {
+        std::fs::write(&file, glb(&document("", 3).replace(from, to), &unit_triangle())).unwrap();
+        assert!(complaint(&file).contains(named), "{named}");
+    }
+}
+
+#[test]
 fn indices_beyond_the_vertices_are_refused() {
     let binary = buffer([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [0, 1, 3]);
     let (_folder, file) = written(Buffer::Chunk, 3, &binary);
