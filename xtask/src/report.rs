@@ -34,19 +34,20 @@ pub fn html(folder: &Path, summary: &Summary) -> Result<String> {
 fn study(summary: &Summary) -> String {
     let relation = &summary.relation;
     let ratio = &relation.ratio;
-    let least = summary.pairs().iter().map(|(fixed, adaptive)| saving(fixed, adaptive)).fold(f64::INFINITY, f64::min);
+    let savings = || summary.pairs().into_iter().map(|(fixed, adaptive)| saving(fixed, adaptive));
+    let (least, most) = (savings().fold(f64::INFINITY, f64::min), savings().fold(0.0, f64::max));
     let [low, high] = ratio.ci95;
     format!(
         "<h1>How small may a soft shadow's map be?</h1>\
          <p class=lead>{people} simulated people judged {trials} pairs of filtered edges. A filter hides a texel for them \
          when its radius is <b>{value:.2} texels</b> (95 % interval {low:.2} to {high:.2}; the people were made with a \
-         median of {TRUE_RATIO}). Sized by that number, the shadow maps below have <b>at least {least:.0} times fewer texels</b> \
+         median of {TRUE_RATIO}). Sized by that number, the shadow maps below have <b>{least:.0} to {most:.0} times fewer texels</b> \
          than 2048 x 2048.</p>\
          <h2>1. What they saw</h2>\
          <p>A straight silhouette, and the same silhouette as a shadow map stores it (a stair at 45 degrees, or one \
          step), both softened by the same filter. Which one was the line? Columns: stair and its line, step and its line; radii from \
          the top 0.5, 1, 2, 3.47 and 6 texels.</p>\
-         <a href=stimuli.png><img src=stimuli.png alt='Filtered lines, stairs and steps'></a>\
+         <a href=stimuli.png><img class=sheet src=stimuli.png alt='Filtered lines, stairs and steps'></a>\
          <h2>2. What they answered</h2>\
          <p>A QUEST staircase chooses each next radius. <a href=study/report.html>The whole analysis</a> has the numbers.</p>\
          <div class=pair><figure><img src=study/staircases.svg alt='Staircases of one person'></figure>\
@@ -63,7 +64,7 @@ fn table(summary: &Summary) -> Result<String> {
         "<h2>3. What it buys</h2>\
          <p>The same filter and softness, from a fixed map of 2048 x 2048 and from one sized by the fitted ratio. \
          Milliseconds are medians (quartiles) of {} frames that took turns, {} x {} pixels, on {}. The error is that of \
-         the shadow fraction against the same filter over an alias-free shadow, by rays: only the texel differs.</p>\
+         the shadow fraction against the same filter over the exact hard shadow, by rays, with neither texels nor bias.</p>\
          <table><thead><tr><th>Scene<th>Filter<th>Map<th>Texels<th>Depth map, ms<th>Demand, ms<th>Evaluation, ms\
          <th>RMS error, penumbra<th>99 %<th>RMS, all lit sides<th>Texels seen</thead><tbody>",
         bench.frames, bench.width, bench.height, bench.machine.device
@@ -126,7 +127,7 @@ fn pictures(summary: &Summary) -> String {
             figure(&adaptive.pictures.picture, &format!("adaptive, {}", adaptive.size_texels())),
             figure(&fixed.pictures.error_map, &errors(fixed)),
             figure(&adaptive.pictures.error_map, &errors(adaptive)),
-            figure(&fixed.pictures.truth, "the same filter over an alias-free shadow"),
+            figure(&fixed.pictures.truth, "the same filter over the exact hard shadow"),
         );
     }
     html

@@ -38,6 +38,6 @@ pub fn stairwell(assets: &Path) -> Result<Scene, Error> {
             cone_half_angle: 0.66,
             radius_world: 0.12,
         },
-        pcf_radius_world: 0.02,
+        pcf_radius_world: 0.03,
     })
 }
