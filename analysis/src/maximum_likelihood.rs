@@ -1,13 +1,13 @@
 //! Maximum-likelihood fit of a Weibull psychometric function to counts of correct answers.
 //!
-//! Minimises `-ln L = -sum k ln p(x) + (n - k) ln(1 - p(x))` over the location, and over slope and lapse where these are
-//! free (the binomial coefficient is left out). Start: the best point of a coarse grid. Then Newton steps with the analytic
-//! Hessian, damped until the likelihood grows (Levenberg). Standard errors come from the inverse of the Hessian at the
-//! maximum (observed information).
+//! Minimises `-ln L = -sum k ln p(x) + (n - k) ln(1 - p(x))` over the location, and over slope and lapse where these
+//! are free (the binomial coefficient is left out). Start: the best point of a coarse grid. Then Newton steps with the
+//! analytic Hessian, damped until the likelihood grows (Levenberg). Standard errors come from the inverse of the
+//! Hessian at the maximum (observed information).
 //!
-//! A likelihood can keep growing towards `t -> -inf` (everything seen), `t -> +inf` (everything guessed) or `b -> inf` (a
-//! jump): the data do not bound the parameter and there is no estimate. The fit says which of these happened instead of
-//! returning the edge of its search range.
+//! A likelihood can keep growing towards `t -> -inf` (everything seen), `t -> +inf` (everything guessed) or `b -> inf`
+//! (a jump): the data do not bound the parameter and there is no estimate. The fit says which of these happened instead
+//! of returning the edge of its search range.
 
 use std::f64::consts::LN_10;
 
@@ -52,8 +52,8 @@ pub const LAPSE_LARGEST: f64 = 0.2;
 /// Slopes per decade that a fit may find. Published slopes lie between 1 and 10; at 100 the function is a jump.
 pub const SLOPE_RANGE: [f64; 2] = [0.1, 100.0];
 
-/// Half of the 95 % quantile of chi-squared with one degree of freedom: a likelihood-ratio interval ends where `ln L` fell
-/// by this much.
+/// Half of the 95 % quantile of chi-squared with one degree of freedom: a likelihood-ratio interval ends where `ln L`
+/// fell by this much.
 pub const LIKELIHOOD_DROP_95: f64 = 1.920_729_410_347_062;
 
 /// A fitted psychometric function with its precision.

@@ -1,8 +1,8 @@
 //! Real scenes: the shadows on the GPU against the same kernel over rays, which have no texels.
 //!
-//! Receivers are what the camera sees. The truth runs `scumble_core::filter` with rays in place of the map: a map without
-//! texels, compared with the receiver's tangent plane as the shader does. Errors are taken on the ground, where the
-//! tangent plane is the surface, so that the texel alone differs (and the bias that hides it).
+//! Receivers are what the camera sees. The truth runs `scumble_core::filter` with rays in place of the map: a map
+//! without texels, compared with the receiver's tangent plane as the shader does. Errors are taken on the ground, where
+//! the tangent plane is the surface, so that the texel alone differs (and the bias that hides it).
 
 #[path = "../../crates/scumble/tests/common/mod.rs"]
 mod common;

@@ -17,7 +17,8 @@ struct Stair {
 }
 
 impl Stair {
-    /// Finds signs and shift near `around` so that a texel (i, j) is dark exactly when sign.x i - sign.y j exceeds a whole number.
+    /// Finds signs and shift near `around` so that a texel (i, j) is dark exactly when sign.x i - sign.y j exceeds a
+    /// whole number.
     fn find(depths: &[f32], width: u32, around: DVec2) -> Self {
         let darkest = depths.iter().copied().fold(f32::INFINITY, f32::min);
         let is_dark = |i: u32, j: u32| depths[(j * width + i) as usize] < darkest + 0.05;

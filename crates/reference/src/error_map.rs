@@ -1,7 +1,7 @@
 //! A picture of where two pictures differ: red too bright, blue too dark, near white equal, grey outside of the mask.
 //!
-//! The colours are ColorBrewer's diverging scale RdBu (Harrower and Brewer 2003): lightness falls alike to both sides, hue
-//! tells the sign, and it is safe for the common forms of colour blindness.
+//! The colours are ColorBrewer's diverging scale RdBu (Harrower and Brewer 2003): lightness falls alike to both sides,
+//! hue tells the sign, and it is safe for the common forms of colour blindness.
 
 use crate::Error;
 use crate::metrics::check_lengths;
@@ -9,8 +9,8 @@ use crate::metrics::check_lengths;
 /// sRGB of a pixel outside of the mask: darker than the scale's middle, without a hue.
 const OUTSIDE: [u8; 3] = [176; 3];
 
-/// Rows of 8-bit sRGB, three bytes a pixel, of `found - truth`. A difference of `full_scale` or more has the scale's end
-/// colour, so that maps with one scale can be compared.
+/// Rows of 8-bit sRGB, three bytes a pixel, of `found - truth`. A difference of `full_scale` or more has the scale's
+/// end colour, so that maps with one scale can be compared.
 ///
 /// # Errors
 /// Different numbers of pixels, and values inside the mask that are not finite.

@@ -2,16 +2,16 @@
 //!
 //! A tap at offset `o` is the light's ray that crosses the reference plane at the receiver's point plus `o`. A map of
 //! infinite resolution would call it shaded when its first surface lies before the receiver's tangent plane. The truth
-//! deviates from that, because the filter stands for "the filtered hard shadow" (Kreuzer 2017, 4.1.2): the hard shadow is a
-//! function on surfaces, and its mean is taken over the surface around the receiver, not over a plane that leaves it. A
-//! neighbouring fold, riser or wall that rises above the tangent plane and is lit is a part of that surface and no
-//! occluder. So the tap asks whether light reaches the surface where the ray meets it; `tap` says which surface.
+//! deviates from that, because the filter stands for "the filtered hard shadow" (Kreuzer 2017, 4.1.2): the hard shadow
+//! is a function on surfaces, and its mean is taken over the surface around the receiver, not over a plane that leaves
+//! it. A neighbouring fold, riser or wall that rises above the tangent plane and is lit is a part of that surface and
+//! no occluder. So the tap asks whether light reaches the surface where the ray meets it; `tap` says which surface.
 //!
 //! What a map differs by from this truth is its texels, the bias that they need, and the self-shadowing of its tangent
 //! plane in concave places. Bias here is only what rounding needs ([`Bias::without_texels`], [`Rays::epsilon`]).
 //!
-//! Source: the comparison with an alias-free hard shadow of course notes Eisemann et al. (2009), 1.6, filtered by the kernel
-//! under test in place of the light.
+//! Source: the comparison with an alias-free hard shadow of course notes Eisemann et al. (2009), 1.6, filtered by the
+//! kernel under test in place of the light.
 
 use glam::{DVec2, Vec3};
 use rayon::prelude::*;

@@ -42,7 +42,8 @@ pub fn differences(found: &[f32], truth: &[f32], mask: &[bool]) -> Result<Differ
     Ok(summary(&signed))
 }
 
-/// The mask of the pixels in which a silhouette shows: inside `mask`, and neither fully lit nor fully dark in the truth.
+/// The mask of the pixels in which a silhouette shows: inside `mask`, and neither fully lit nor fully dark in the
+/// truth.
 ///
 /// # Errors
 /// Different numbers of pixels.

@@ -1,12 +1,13 @@
 //! Rays against a scene's triangles: the nearest hit, and whether a segment is free.
 //!
-//! The hierarchy is obvhs's compressed 8-wide tree in `f32`; the triangles are met in `f64`. A ray can slip through a closed
-//! surface in two places, and both are shut:
+//! The hierarchy is obvhs's compressed 8-wide tree in `f32`; the triangles are met in `f64`. A ray can slip through a
+//! closed surface in two places, and both are shut:
 //! * between box and ray: every box is padded by `PADDING` of the scene's extent, more than `f32` loses on the way;
 //! * between two triangles: barycentric coordinates may be `EDGE_TOLERANCE` below zero, so that neighbours overlap.
 //!
-//! Inside, coordinates are relative to the middle of the scene and its diagonal is `LOCAL_EXTENT`, so that a scene of any size
-//! at any place has the same accuracy (as far as its own `f32` positions go). Meshes may be open, doubled, or wound either way: both sides of a triangle count.
+//! Inside, coordinates are relative to the middle of the scene and its diagonal is `LOCAL_EXTENT`, so that a scene of
+//! any size at any place has the same accuracy (as far as its own `f32` positions go). Meshes may be open, doubled, or
+//! wound either way: both sides of a triangle count.
 //!
 //! Triangles by Moeller and Trumbore, *Fast, minimum storage ray/triangle intersection* (1997).
 
@@ -21,8 +22,8 @@ use std::time::Duration;
 const PADDING: f64 = 1e-6;
 /// Barycentric coordinates down to this count as inside: far above `f64` rounding, far below a `f32` position's.
 const EDGE_TOLERANCE: f64 = 1e-10;
-/// The scene's diagonal in local units. The tree ignores boxes that end within 1e-4 units of a ray's origin, whatever the
-/// ray's direction is: 1e-7 of the diagonal, a hundredth of [`Rays::epsilon`].
+/// The scene's diagonal in local units. The tree ignores boxes that end within 1e-4 units of a ray's origin, whatever
+/// the ray's direction is: 1e-7 of the diagonal, a hundredth of [`Rays::epsilon`].
 const LOCAL_EXTENT: f64 = 1000.0;
 /// See [`Rays::epsilon`].
 const EPSILON: f64 = 1e-5;
@@ -333,7 +334,8 @@ mod tests {
 
     #[test]
     fn a_blocker_beside_the_start_of_a_long_segment_is_not_missed() {
-        // Two far boxes make the scene long; the tree's own near limit must not reach the small step between the points.
+        // Two far boxes make the scene long; the tree's own near limit must not reach the small step between the
+        // points.
         let far = cuboid("far", DVec3::splat(90.0), DVec3::splat(100.0), Vec3::ONE);
         let rays = Rays::new(&scene(vec![far, ground("sheet", DVec3::ZERO, 1.0, Vec3::ONE)]));
         let above = DVec3::new(0.1, rays.epsilon(), 0.1);

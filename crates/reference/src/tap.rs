@@ -1,8 +1,9 @@
 //! Whether a tap of the filter is shaded: which surface the tap belongs to, and whether something lies before it.
 //!
-//! The tap is the light's ray at offset `o` from the receiver; `t` is the depth of the receiver's tangent plane there, `d_1`
-//! the depth of the first surface on the ray, `gap = t - d_1`. A *layer* is a place where the ray meets a side that faces
-//! the light. With `r` the filter's radius (a blocker search's own radius) as a length at the receiver's depth:
+//! The tap is the light's ray at offset `o` from the receiver; `t` is the depth of the receiver's tangent plane there,
+//! `d_1` the depth of the first surface on the ray, `gap = t - d_1`. A *layer* is a place where the ray meets a side
+//! that faces the light. With `r` the filter's radius (a blocker search's own radius) as a length at the receiver's
+//! depth:
 //! ```text
 //! gap <= 0                                   lit
 //! gap > reach                                shaded
@@ -12,25 +13,25 @@
 //! else                                       lit: d_1 is the receiver's own surface, which rises above the tangent plane
 //! reach = r (1 + |s_receiver| + |s_1|)       s: change of depth per metre sideways, of the tangent plane and of d_1's triangle
 //! ```
-//! Two planes that meet within the kernel are apart by no more than `r (|s_receiver| + |s_1|)` in it, whatever the light's
-//! angle; a radius more lets a stair of flat treads be a surface too. The distance `r / 20` is for doubled cloth, of which
-//! either side may be the upper one by a thread; a kernel of 25 taps does not tell so small a step.
+//! Two planes that meet within the kernel are apart by no more than `r (|s_receiver| + |s_1|)` in it, whatever the
+//! light's angle; a radius more lets a stair of flat treads be a surface too. The distance `r / 20` is for doubled
+//! cloth, of which either side may be the upper one by a thread; a kernel of 25 taps does not tell so small a step.
 //!
-//! A layer is *open* unless it lies inside of a body or touches its underside: no receiver is there to be shaded. The ground
-//! continues under a wall, and at the foot of the wall's lit side it must not make the wall an occluder. A mesh holds the
-//! layer when the ray, from the layer on, leaves the mesh more often than it enters it.
+//! A layer is *open* unless it lies inside of a body or touches its underside: no receiver is there to be shaded. The
+//! ground continues under a wall, and at the foot of the wall's lit side it must not make the wall an occluder. A mesh
+//! holds the layer when the ray, from the layer on, leaves the mesh more often than it enters it.
 //!
-//! Limits: folds steeper than the reach shade as they do in a map. Where a wall is thinner than the kernel, taps behind it
-//! find the floor of its other side, and the foot of its lit side is darkened. Where the receiver's surface is narrower than
-//! the kernel, a surface beside it that rises within reach is taken for its own.
+//! Limits: folds steeper than the reach shade as they do in a map. Where a wall is thinner than the kernel, taps behind
+//! it find the floor of its other side, and the foot of its lit side is darkened. Where the receiver's surface is
+//! narrower than the kernel, a surface beside it that rises within reach is taken for its own.
 
 use glam::{DVec2, DVec3};
 use scumble_core::{Bias, Fit, ReceiverPlane};
 
 use crate::{Hit, Rays};
 
-/// Distance of the sides of doubled cloth, in radii of the filter. The parasols of real files are up to 0.04 apart along a
-/// slanted ray.
+/// Distance of the sides of doubled cloth, in radii of the filter. The parasols of real files are up to 0.04 apart
+/// along a slanted ray.
 const TWINS: f64 = 0.05;
 
 /// A receiver with what its taps can meet.
@@ -52,8 +53,8 @@ impl<'a> Surroundings<'a> {
         around
     }
 
-    /// Depth of what shades the tap at `offset`, where the tangent plane has the depth `plane_depth`; `None` where it is lit.
-    /// What lies before the near plane shades nothing.
+    /// Depth of what shades the tap at `offset`, where the tangent plane has the depth `plane_depth`; `None` where it
+    /// is lit. What lies before the near plane shades nothing.
     pub fn occluder_depth(&self, offset: DVec2, plane_depth: f64, radius_world: f64) -> Option<f64> {
         let first = self.first(offset, plane_depth)?;
         let first_depth = self.fit.depth(first.position);

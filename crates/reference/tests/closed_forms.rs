@@ -1,7 +1,8 @@
 //! The filter over rays against shadows whose value is known.
 //!
-//! A half plane covers the share `F(t)` of a disc whose centre is `t` radii inside of its edge (`half_plane_under_disc`); a
-//! slit of width w leaves `F(t + w / 2r) - F(t - w / 2r)` lit. Many taps make the sum an integral.
+//! A half plane covers the share `F(t)` of a disc whose centre is `t` radii inside of its edge
+//! (`half_plane_under_disc`); a slit of width w leaves `F(t + w / 2r) - F(t - w / 2r)` lit. Many taps make the sum an
+//! integral.
 
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
@@ -109,7 +110,8 @@ fn a_slit_narrower_than_the_kernel_is_never_fully_lit() {
 
 #[test]
 fn a_soft_shadow_has_the_radius_of_similar_triangles() {
-    // Sun: r = h tan(half angle). Nowhere else is an occluder, so the mean blocker depth is exact wherever one is found.
+    // Sun: r = h tan(half angle). Nowhere else is an occluder, so the mean blocker depth is exact wherever one is
+    // found.
     let under_sun = scene(sun(DVec3::NEG_Y), &[(-8.0, 0.0)]);
     let radius = LID * 0.1f64.tan();
     let error =

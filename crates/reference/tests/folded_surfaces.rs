@@ -1,4 +1,5 @@
-//! Lit surfaces that rise above the receiver's tangent plane are no occluders, and what lies above a surface still is one.
+//! Lit surfaces that rise above the receiver's tangent plane are no occluders, and what lies above a surface still is
+//! one.
 //!
 //! In each scene it is known which points light reaches. A kernel over a surface that is lit all over is lit; one that
 //! looked at tangent planes would find it dark in every concave fold.

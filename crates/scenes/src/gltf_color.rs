@@ -1,8 +1,8 @@
 //! One linear colour per glTF material: the base colour factor times the mean of the base colour texture.
 //!
 //! A scene for shadows needs no texture, but a ship should be brown and its sails light: the mean over all texels,
-//! taken in linear light (texels are sRGB code values) and weighted by alpha, is enough. Texture transforms, repeats and
-//! the part of the texture that a mesh really uses are ignored.
+//! taken in linear light (texels are sRGB code values) and weighted by alpha, is enough. Texture transforms, repeats
+//! and the part of the texture that a mesh really uses are ignored.
 
 use glam::Vec3;
 use gltf::image::{Data, Format};

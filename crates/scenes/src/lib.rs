@@ -11,9 +11,9 @@
 //! # Ok(()) }
 //! ```
 //!
-//! Goals: no shadow that the file does not hold (concave polygons are cut by ears, not as fans), every problem of a file as
-//! one line that names file and place, everything in metres.
-//! Not goals: textures, animation, transparency; a mesh has one colour.
+//! Goals: no shadow that the file does not hold (concave polygons are cut by ears, not as fans), every problem of a
+//! file as one line that names file and place, everything in metres. Not goals: textures, animation, transparency; a
+//! mesh has one colour.
 
 mod automatic;
 mod catalogue;

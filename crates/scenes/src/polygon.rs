@@ -1,8 +1,9 @@
 //! Triangles from a polygon of a file: any number of corners, concave or not.
 //!
-//! The polygon's normal is Newell's: `n = sum_i p_i x p_(i+1)`, the area-weighted mean that exists for concave and slightly
-//! bent polygons alike. The corners are projected along the normal's largest axis and cut by ears in that plane. A fan from
-//! the first corner, which many loaders use, covers the outside of a concave polygon and casts shadows that are not there.
+//! The polygon's normal is Newell's: `n = sum_i p_i x p_(i+1)`, the area-weighted mean that exists for concave and
+//! slightly bent polygons alike. The corners are projected along the normal's largest axis and cut by ears in that
+//! plane. A fan from the first corner, which many loaders use, covers the outside of a concave polygon and casts
+//! shadows that are not there.
 //!
 //! Not done: holes (OBJ has none) and polygons that cross themselves (cut in some way, without a promise).
 

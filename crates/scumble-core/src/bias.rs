@@ -1,15 +1,15 @@
 //! Depth bias: every tap compares with the receiver's tangent plane at the tap, less what a texel's size explains.
 //!
 //! Light space with depth d; the receiver at (x, y, d) with geometric normal m, and s = (x, y) / d for a spot, 0 for a
-//! directional light. Along the tangent plane depth changes by `t = -m_xy / (m . (s, 1))` for each metre sideways at the
-//! receiver's depth. Over an offset o at the reference plane (depth `ref`), the plane lies at
+//! directional light. Along the tangent plane depth changes by `t = -m_xy / (m . (s, 1))` for each metre sideways at
+//! the receiver's depth. Over an offset o at the reference plane (depth `ref`), the plane lies at
 //! - directional: `d + t . o`,
 //! - spot: `d / (1 - t . o / ref)`; its reciprocal, and so the depth of clip space, is linear in o.
 //!
-//! A map stores depth at texel centres: a nearest lookup errs by up to half a texel in x and y, a bilinear comparison by
-//! up to one. So the bias is `texel (constant + slope (|t_x| + |t_y|))` with `slope` = 1, authored in texels because the
-//! size changes while the program runs. The truth has no texel and keeps only the rounding part.
-//! Limit: t is clamped to a maximum angle, beyond which a surface shadows itself; at 85 degrees it reflects 9 % of the light.
+//! A map stores depth at texel centres: a nearest lookup errs by up to half a texel in x and y, a bilinear comparison
+//! by up to one. So the bias is `texel (constant + slope (|t_x| + |t_y|))` with `slope` = 1, authored in texels because
+//! the size changes while the program runs. The truth has no texel and keeps only the rounding part. Limit: t is
+//! clamped to a maximum angle, beyond which a surface shadows itself; at 85 degrees it reflects 9 % of the light.
 
 use glam::{DVec2, DVec3};
 

@@ -29,7 +29,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Refuses what has no picture: eye on target, up along the view, an angle outside of 0..pi, near <= 0, far <= near.
+    /// Refuses what has no picture: eye on target, up along the view, an angle outside of 0..pi, near <= 0, far <=
+    /// near.
     ///
     /// # Errors
     /// Names the value and what is allowed.
@@ -86,7 +87,8 @@ impl Camera {
         (self.target - self.eye).normalize()
     }
 
-    /// Height of the picture at distance 1: 2 tan(fov / 2). Times distance / height in pixels, it is a pixel's footprint.
+    /// Height of the picture at distance 1: 2 tan(fov / 2). Times distance / height in pixels, it is a pixel's
+    /// footprint.
     #[must_use]
     pub fn height_at_unit_distance(&self) -> f64 {
         2.0 * (0.5 * self.vertical_fov).tan()

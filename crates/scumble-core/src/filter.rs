@@ -1,7 +1,8 @@
 //! The estimators of visibility, one implementation for every source of depth.
 //!
-//! A source is a closure: a shadow map on the CPU (the twin of the shaders), or rays (the alias-free truth). Offsets are
-//! lengths on the fit's reference plane, in metres; depths are light-space depths, in metres; visibility is 1 lit, 0 dark.
+//! A source is a closure: a shadow map on the CPU (the twin of the shaders), or rays (the alias-free truth). Offsets
+//! are lengths on the fit's reference plane, in metres; depths are light-space depths, in metres; visibility is 1 lit,
+//! 0 dark.
 //!
 //! Percentage closer filtering: the mean of comparisons over a disc of taps, rotated per pixel (Kreuzer 2017, 5.1.3).
 //! Percentage closer soft shadows, for a spot of radius `r_light`, receiver `z_r`, near plane `z_n` (5.8 to 5.11):
@@ -9,9 +10,10 @@
 //! r_search = r_light (z_r - z_n) / z_r        z_b = mean depth of the taps in front of the receiver
 //! r_filter = r_light (z_r - z_b) / z_b * z_n / z_r
 //! ```
-//! and for parallel light of half angle `h` the same triangles: `r_search = (z_r - z_n) tan h`, `r_filter = (z_r - z_b) tan h`.
-//! All are radii; 5.8's `w` is the light's radius. The filter is no narrower than `radius_min_world` (6.2), nor the
-//! search, since it must find what the filter reaches. "In front of the receiver" means of its tangent plane at the tap.
+//! and for parallel light of half angle `h` the same triangles: `r_search = (z_r - z_n) tan h`, `r_filter = (z_r - z_b)
+//! tan h`. All are radii; 5.8's `w` is the light's radius. The filter is no narrower than `radius_min_world` (6.2), nor
+//! the search, since it must find what the filter reaches. "In front of the receiver" means of its tangent plane at the
+//! tap.
 
 use glam::DVec2;
 
@@ -133,8 +135,8 @@ pub fn blocker_search(
 /// Radius around the receiver in which an occluder can shade it, at the reference plane, in metres (Eq. 5.8).
 ///
 /// That is the filter's radius for an occluder at the near plane. Where a spot's near plane is close to it, as under a
-/// ceiling, that is the whole lamp on a picture smaller than the lamp, and all taps miss the map; so occluders nearer than
-/// [`SEARCH_SHARE`] of the receiver's depth are not searched to their full width.
+/// ceiling, that is the whole lamp on a picture smaller than the lamp, and all taps miss the map; so occluders nearer
+/// than [`SEARCH_SHARE`] of the receiver's depth are not searched to their full width.
 #[must_use]
 pub fn search_radius_world(fit: &Fit, receiver_depth: f64) -> f64 {
     let nearest = match fit.light {

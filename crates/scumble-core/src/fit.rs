@@ -1,7 +1,8 @@
 //! Fitting: the light's view, limited to what the observer can see.
 //!
-//! Potential shadow receivers `PSR = L ∩ V ∩ S`: the light's volume, the observer's view volume, the scene's box (Kreuzer
-//! 2017, Eq. 3.4). The map is the light-space box of PSR, x and y apart (the matrix F of Eq. 3.5), so a radius takes up
+//! Potential shadow receivers `PSR = L ∩ V ∩ S`: the light's volume, the observer's view volume, the scene's box
+//! (Kreuzer 2017, Eq. 3.4). The map is the light-space box of PSR, x and y apart (the matrix F of Eq. 3.5), so a radius
+//! takes up
 //! `s_x`, `s_y` times as much of it as of the square view plane of the light (5.1.2). Depth reaches from the first
 //! potential caster, anything of S between the light and the map's box, to the last receiver.
 //!

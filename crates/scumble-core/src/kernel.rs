@@ -11,8 +11,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-/// Throws that fail in a row before the distance shrinks. With the next constant: eight times as many throws and a third
-/// of the step gave discs of the same residual error, a quarter of the throws and twice the step of a tenth more.
+/// Throws that fail in a row before the distance shrinks. With the next constant: eight times as many throws and a
+/// third of the step gave discs of the same residual error, a quarter of the throws and twice the step of a tenth more.
 const THROWS: u32 = 400;
 
 /// By how much it shrinks.
@@ -155,8 +155,8 @@ mod tests {
 
     #[test]
     fn the_default_taps_err_little_more_than_a_dense_disc() {
-        // A Vogel disc of 25 bilinear taps errs by 0.095 at most, RMS 0.015, one of 16 by 0.117, RMS 0.022; a Poisson disc
-        // may err by a fifth more.
+        // A Vogel disc of 25 bilinear taps errs by 0.095 at most, RMS 0.015, one of 16 by 0.117, RMS 0.022; a Poisson
+        // disc may err by a fifth more.
         let taps = Taps::default();
         for (taps, largest_allowed, rms_allowed) in [(&taps.filter, 0.115, 0.017), (&taps.blocker, 0.135, 0.022)] {
             let (largest, rms) = residual(taps, 3.47, true);

@@ -1,7 +1,7 @@
 //! How large a shadow map must be so that nobody sees its texels: the method without a GPU.
 //!
-//! A filter of radius r hides texels up to a = r / c (Kreuzer 2017: c = 3.47, measured with people). So the softness that
-//! a light asks for decides how many texels its map needs, and a soft shadow needs few. One frame:
+//! A filter of radius r hides texels up to a = r / c (Kreuzer 2017: c = 3.47, measured with people). So the softness
+//! that a light asks for decides how many texels its map needs, and a soft shadow needs few. One frame:
 //!
 //! 1. [`fit`] limits the light's view to what the observer sees: [`Fit`], with its extent L in x and y.
 //! 2. The screen's demand is its smallest filter radius r, [`Demand`]: the filter's own radius for percentage closer

@@ -80,7 +80,8 @@ impl Light {
     }
 
     /// World to light space. The orientation depends on the light alone, so texels keep theirs while the observer moves
-    /// (course of Eisemann et al., 3.2.1). The world's y is up in the map, or z where the light shines within 8 degrees of y.
+    /// (course of Eisemann et al., 3.2.1). The world's y is up in the map, or z where the light shines within 8 degrees
+    /// of y.
     #[must_use]
     pub fn light_from_world(&self) -> DMat4 {
         let eye = match *self {

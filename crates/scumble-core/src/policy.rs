@@ -1,13 +1,13 @@
 //! From a demand to a size that a map can have, frame by frame.
 //!
-//! Demand: the smallest radius r on screen, at the reference plane; `N = c (L / r)` texels in x and y apart. A size is a
-//! rung of a ladder of a quarter octave, `{1, 1.189, 1.414, 1.682} 2^k` rounded up to multiples of 8: on average 1.19
+//! Demand: the smallest radius r on screen, at the reference plane; `N = c (L / r)` texels in x and y apart. A size is
+//! a rung of a ladder of a quarter octave, `{1, 1.189, 1.414, 1.682} 2^k` rounded up to multiples of 8: on average 1.19
 //! times the area that was asked for, where powers of two give 2.16. It grows at once, since too few texels show. It
-//! shrinks when the demand stayed 20 % below for 30 frames, to the largest demand of these, by an octave at most (Kreuzer
-//! 2017, 6.2 restricts the rate): sizes that change every frame make silhouettes wobble.
+//! shrinks when the demand stayed 20 % below for 30 frames, to the largest demand of these, by an octave at most
+//! (Kreuzer 2017, 6.2 restricts the rate): sizes that change every frame make silhouettes wobble.
 //!
-//! When the cap binds the size says what it achieves: `c_effective = N r / L`, and `r_min = c L / N`, the smallest radius
-//! whose texels it hides.
+//! When the cap binds the size says what it achieves: `c_effective = N r / L`, and `r_min = c L / N`, the smallest
+//! radius whose texels it hides.
 
 use glam::DVec2;
 
@@ -43,7 +43,8 @@ impl Demand {
 pub struct Size {
     /// Texels in x and y.
     pub texels: [u32; 2],
-    /// Radius of the demand in texels of this size, the smaller of x and y: at least c unless `capped`. Without a demand, c.
+    /// Radius of the demand in texels of this size, the smaller of x and y: at least c unless `capped`. Without a
+    /// demand, c.
     pub c_effective: f64,
     /// Smallest radius whose texels this size hides, in metres at the reference plane.
     pub radius_min_world: f64,

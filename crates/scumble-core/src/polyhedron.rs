@@ -1,8 +1,8 @@
 //! Convex polyhedra and their exact intersection with half spaces.
 //!
-//! A polyhedron is its faces, each a loop of vertices. Clipping cuts every loop (Sutherland and Hodgman 1974) and closes
-//! the cut with a face of its own, the convex hull of the points on the cutting plane. All vertices of the intersection
-//! of two convex bodies are found this way: each is a vertex of one or lies on an edge of one.
+//! A polyhedron is its faces, each a loop of vertices. Clipping cuts every loop (Sutherland and Hodgman 1974) and
+//! closes the cut with a face of its own, the convex hull of the points on the cutting plane. All vertices of the
+//! intersection of two convex bodies are found this way: each is a vertex of one or lies on an edge of one.
 //!
 //! Flat, thin and one-point bodies keep loops of two points or of one, and clip like any other. Points closer to the
 //! plane than 1e-12 of the body's size lie on it, so that touching planes make no slivers.
@@ -153,7 +153,8 @@ mod tests {
         Polyhedron::from_corners(Aabb { min: DVec3::NEG_ONE, max: DVec3::ONE }.corners())
     }
 
-    /// By the divergence theorem over fans of triangles; faces may turn either way, so each is signed by its side of the centre.
+    /// By the divergence theorem over fans of triangles; faces may turn either way, so each is signed by its side of
+    /// the centre.
     fn volume(body: &Polyhedron) -> f64 {
         let points: Vec<DVec3> = body.vertices().collect();
         let center = points.iter().sum::<DVec3>() / points.len() as f64;

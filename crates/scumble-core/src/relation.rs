@@ -1,8 +1,8 @@
 //! The relation between the texel and the filter that hides it: `r = c a` (Kreuzer 2017, Eq. 5.1).
 //!
 //! `a` texel size and `r` filter radius, both lengths in one space; `c = r / a` the ratio, the radius in texels; `L` extent
-//! of the light's view plane; `N` resolution, texels per side. Inverse: `N = c / r_uv` (5.3) `= c L / r_world` (5.6). After
-//! fitting `L` is the fitted extent of the axis, which is the same as scaling the radius by `s` (5.1.2).
+//! of the light's view plane; `N` resolution, texels per side. Inverse: `N = c / r_uv` (5.3) `= c L / r_world` (5.6).
+//! After fitting `L` is the fitted extent of the axis, which is the same as scaling the radius by `s` (5.1.2).
 //!
 //! It holds for kernels whose radius is a length. A kernel of k texels has c = k at every N: more texels change its
 //! softness, not its artifacts. 3.47 belongs to a disc.
@@ -10,7 +10,8 @@
 use crate::error::{Error, check, not_negative, positive};
 use crate::relation_file::RelationFile;
 
-/// Largest ratio that is accepted. Beyond 64 texels no edge is told from a straight one, and a file that says so is damaged.
+/// Largest ratio that is accepted. Beyond 64 texels no edge is told from a straight one, and a file that says so is
+/// damaged.
 pub const RATIO_MAX: f64 = 64.0;
 
 /// Relative slack of rounding up. Plain rounding up is one texel too large in 7 to 38 % of the cases that are whole
@@ -46,8 +47,8 @@ impl Relation {
     /// A relation from its numbers.
     ///
     /// # Errors
-    /// Names a ratio that is not above 0 and at most 64, a standard error that is not 0 or above, an interval that does not
-    /// enclose the ratio.
+    /// Names a ratio that is not above 0 and at most 64, a standard error that is not 0 or above, an interval that does
+    /// not enclose the ratio.
     pub fn new(ratio: f64, standard_error: f64, ci95: [f64; 2]) -> Result<Self, Error> {
         check("the ratio", ratio, ratio > 0.0 && ratio <= RATIO_MAX, "a number above 0, at most 64")?;
         not_negative("the ratio's standard_error", standard_error)?;
@@ -118,8 +119,8 @@ impl Relation {
 
     /// Texels across `extent_world` that a filter of `radius_world` hides; not rounded, see [`whole_texels`].
     ///
-    /// Computed as c (L / r), which does not overflow where (c L) / r does. A radius of +0 gives infinity: no size hides
-    /// a hard edge. A radius of half the extent or more gives 2 c: the kernel covers the map.
+    /// Computed as c (L / r), which does not overflow where (c L) / r does. A radius of +0 gives infinity: no size
+    /// hides a hard edge. A radius of half the extent or more gives 2 c: the kernel covers the map.
     ///
     /// # Errors
     /// Names an extent that is not finite and above 0, or a radius that is negative, -0, NaN or infinite.
@@ -129,7 +130,8 @@ impl Relation {
         Ok(self.ratio * (extent_world / radius_world).max(1.0 / RADIUS_UV_MAX))
     }
 
-    /// Texels across a map that a filter of `radius_uv` (in widths of the map) hides; otherwise as [`Relation::resolution`].
+    /// Texels across a map that a filter of `radius_uv` (in widths of the map) hides; otherwise as
+    /// [`Relation::resolution`].
     ///
     /// # Errors
     /// As [`Relation::resolution`].
@@ -139,8 +141,8 @@ impl Relation {
     }
 }
 
-/// Rounds a resolution up to whole texels, forgiving [`ROUNDING_SLACK`], into 1..=`cap`. Infinity gives `cap`; NaN cannot
-/// come from [`Relation::resolution`] and gives `cap` too, the size that is never too small.
+/// Rounds a resolution up to whole texels, forgiving [`ROUNDING_SLACK`], into 1..=`cap`. Infinity gives `cap`; NaN
+/// cannot come from [`Relation::resolution`] and gives `cap` too, the size that is never too small.
 #[must_use]
 pub fn whole_texels(resolution: f64, cap: u32) -> u32 {
     let whole = (resolution * (1.0 - ROUNDING_SLACK)).ceil();

@@ -131,8 +131,8 @@ impl RelationFile {
     /// Reads and checks a file.
     ///
     /// # Errors
-    /// Names the field, what it holds and what is allowed: another schema, a number that is missing, not finite, <= 0 or
-    /// above 64, an interval that does not enclose its value.
+    /// Names the field, what it holds and what is allowed: another schema, a number that is missing, not finite, <= 0
+    /// or above 64, an interval that does not enclose its value.
     pub fn from_json(json: &str) -> Result<Self, Error> {
         let tree: Value = serde_json::from_str(json)?;
         check_schema(&tree)?;
@@ -169,7 +169,8 @@ impl RelationFile {
         Relation::new(self.ratio.value, self.ratio.standard_error, self.ratio.ci95)
     }
 
-    /// The relation that hides texels from this share of viewers at this probability of detection, if the curve holds it.
+    /// The relation that hides texels from this share of viewers at this probability of detection, if the curve holds
+    /// it.
     ///
     /// # Errors
     /// [`Error::Field`] when the curve has no such point.

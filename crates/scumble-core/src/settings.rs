@@ -58,8 +58,8 @@ pub struct Settings {
     pub texel_floor_world: f64,
     /// No texel is asked to be smaller than this many pixels: the texel below a pixel cannot be seen.
     pub footprint_kappa: f64,
-    /// No filter is narrower than this radius, in metres at the reference plane: contact shadows would ask for an infinite map
-    /// (Kreuzer 2017, 5.1.3 and 6.2).
+    /// No filter is narrower than this radius, in metres at the reference plane: contact shadows would ask for an
+    /// infinite map (Kreuzer 2017, 5.1.3 and 6.2).
     pub radius_min_world: f64,
     /// A size may shrink when the demand stayed this share below it, 0..1.
     pub shrink_below: f64,
@@ -109,8 +109,8 @@ impl Settings {
         Ok(self.clone())
     }
 
-    /// The radius that counts for a fragment's demand, in metres at the reference plane: the filter's, but no smaller than
-    /// what hides a texel of `footprint_kappa` pixels or of `texel_floor_world`, nor than `radius_min_world`:
+    /// The radius that counts for a fragment's demand, in metres at the reference plane: the filter's, but no smaller
+    /// than what hides a texel of `footprint_kappa` pixels or of `texel_floor_world`, nor than `radius_min_world`:
     /// `r = max(r_filter, c kappa footprint, c texel_floor, r_min)`. Then `a_required = r / c`.
     #[must_use]
     pub fn demand_radius_world(&self, filter_radius_world: f64, pixel_footprint_world: f64) -> f64 {

@@ -1,6 +1,7 @@
 //! A box on a ground under a soft sun, without a window: `cargo run -p scumble --example minimal -- shadow.png`.
 //!
-//! Shows a frame: plan, upload, the maps, shading. The size of the map comes from the light's softness and the bounds alone.
+//! Shows a frame: plan, upload, the maps, shading. The size of the map comes from the light's softness and the bounds
+//! alone.
 
 use glam::{DVec3, Mat4, Vec3};
 use scumble::{Aabb, Camera, Filter, Light, Options, Settings, Shadows, shadow_wgsl};

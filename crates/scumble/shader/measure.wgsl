@@ -1,7 +1,8 @@
 // The demand pass: the smallest filter radius on screen, by light (Kreuzer 2017, Eq. 5.12 as a minimum of radii).
 //
-// One invocation a pixel and light over the depth prepass. A fragment counts where its visibility is partial and at least
-// two samples found a blocker. Its radius is clamped below by `radius_floor_world` and by what one pixel can show,
+// One invocation a pixel and light over the depth prepass. A fragment counts where its visibility is partial and at
+// least two samples found a blocker. Its radius is clamped below by `radius_floor_world` and by what one pixel can
+// show,
 // `radius_per_footprint` times the pixel's footprint at the reference plane. Bits of positive floats keep their order,
 // so the minimum is an atomic minimum of u32; 0x7F800000, infinity, says that nothing was written.
 
@@ -82,7 +83,8 @@ fn normal_at(pixel: vec2i, size: vec2i, here: vec3f) -> vec3f {
     return normal / max(length(normal), 1e-30);
 }
 
-// Width of a pixel at the receiver, projected onto the reference plane. CPU twin: `scumble_core::pixel_footprint_world`.
+// Width of a pixel at the receiver, projected onto the reference plane. CPU twin:
+// `scumble_core::pixel_footprint_world`.
 fn footprint(light: u32, here: vec3f, light_depth: f32) -> f32 {
     let at_receiver = dot(here - measure.eye, measure.forward) * measure.pixel_at_unit_distance;
     if shadow_lights.lights[light].is_spot == 1u {

@@ -22,8 +22,8 @@ fn shadow_filter_radius(light: u32, receiver_depth: f32, blocker_depth: f32) -> 
     return size * distance;
 }
 
-// The filter's radius for a blocker at the near plane of the map; under a spot, at SHADOW_SEARCH_SHARE of the receiver's
-// depth where the near plane is nearer.
+// The filter's radius for a blocker at the near plane of the map; under a spot, at SHADOW_SEARCH_SHARE of the
+// receiver's depth where the near plane is nearer.
 fn shadow_search_radius(light: u32, receiver_depth: f32) -> f32 {
     var nearest = shadow_lights.lights[light].depth_near;
     if shadow_lights.lights[light].is_spot == 1u {

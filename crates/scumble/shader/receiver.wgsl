@@ -1,8 +1,8 @@
 // From a point with a normal to a place in the map and the plane that every tap compares with.
 //
 // The receiver is at (x, y, d) of light space with the normal m; s = (x, y) / d for a spot, 0 for a directional light.
-// Along its tangent plane depth changes by t = -m_xy / (m . (s, 1)) per world length sideways, and over an offset o at the
-// reference plane (depth `near` for a spot) map depth, unlike depth, is linear for both projections:
+// Along its tangent plane depth changes by t = -m_xy / (m . (s, 1)) per world length sideways, and over an offset o at
+// the reference plane (depth `near` for a spot) map depth, unlike depth, is linear for both projections:
 //   directional  (d + t . o - near) / (far - near)
 //   spot         far / (far - near) (1 - near / d + t . o / d)
 // so the plane is a map depth and a slope, two operations a tap. The length of t is clamped to `slope_max`.

@@ -1,6 +1,7 @@
 //! Bind group and layout of everything that `shadow_visibility` reads, and the buffers behind it.
 
 use scumble_core::Taps;
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use crate::maps::Maps;
 use crate::uniforms::{LightsUniform, TapsUniform};
@@ -26,17 +27,12 @@ impl Bindings {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let taps = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("scumble taps"),
-            size: size_of::<TapsUniform>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM,
-            mapped_at_creation: true,
-        });
         let points = Taps::default();
-        if let Ok(mut view) = taps.get_mapped_range_mut(..) {
-            view.copy_from_slice(bytemuck::bytes_of(&TapsUniform::new(&points.filter, &points.blocker)));
-        }
-        taps.unmap();
+        let taps = device.create_buffer_init(&BufferInitDescriptor {
+            label: Some("scumble taps"),
+            contents: bytemuck::bytes_of(&TapsUniform::new(&points.filter, &points.blocker)),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
 
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("scumble comparison"),

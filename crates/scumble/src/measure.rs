@@ -1,10 +1,11 @@
 //! The demand pass on the GPU: smallest filter radius on screen by light, and its way back.
 //!
-//! Steps of one call: the minimum is set to infinity, `shader/measure.wgsl` lowers it over the depth prepass, the result
-//! is copied into the [readback ring](crate::readback). Nothing is submitted and nothing waits.
+//! Steps of one call: the minimum is set to infinity, `shader/measure.wgsl` lowers it over the depth prepass, the
+//! result is copied into the [readback ring](crate::readback). Nothing is submitted and nothing waits.
 
 use glam::DVec3;
 use scumble_core::{Camera, Demand, Settings};
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use crate::error::Error;
 use crate::readback::Ring;
@@ -68,14 +69,15 @@ impl Measure {
         }
         let layout = bind_group_layout(device);
         let demand_bytes = u64::from(LIGHTS_MAX) * 4;
-        let buffer = |label, size, usage, mapped_at_creation| {
-            device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation })
+        let buffer = |label, size, usage| {
+            let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
+            device.create_buffer(&descriptor)
         };
-        let nothing = buffer("scumble demand start", demand_bytes, wgpu::BufferUsages::COPY_SRC, true);
-        if let Ok(mut view) = nothing.get_mapped_range_mut(..) {
-            view.copy_from_slice(bytemuck::cast_slice(&[NOTHING; LIGHTS_MAX as usize]));
-        }
-        nothing.unmap();
+        let nothing = device.create_buffer_init(&BufferInitDescriptor {
+            label: Some("scumble demand start"),
+            contents: bytemuck::cast_slice(&[NOTHING; LIGHTS_MAX as usize]),
+            usage: wgpu::BufferUsages::COPY_SRC,
+        });
         Ok(Self {
             pipeline: pipeline(device, shadow_layout, &layout),
             layout,
@@ -83,13 +85,11 @@ impl Measure {
                 "scumble measure",
                 size_of::<MeasureUniform>() as u64,
                 wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-                false,
             ),
             demand: buffer(
                 "scumble demand",
                 demand_bytes,
                 wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
-                false,
             ),
             nothing,
             bound: None,
@@ -136,7 +136,8 @@ impl Measure {
         Ok(Recorded { rebound, copied })
     }
 
-    /// The newest result that has come back, by light, in the sense of [`LightState::measured`](crate::plan::LightState).
+    /// The newest result that has come back, by light, in the sense of
+    /// [`LightState::measured`](crate::plan::LightState).
     pub fn take(&mut self) -> Option<Vec<Option<Option<f64>>>> {
         let (bytes, scale) = self.ring.take()?;
         let bits: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);

@@ -27,8 +27,8 @@ pub struct Options {
     pub fitted: bool,
     /// Layers of the texture: most lights of a plan, 1 to [`LIGHTS_MAX`].
     pub maps: u32,
-    /// Origin of the world space that shaders and vertex buffers use, in world coordinates. Put it near the camera or the
-    /// scene where coordinates are large: what reaches the GPU is relative to it, in f32.
+    /// Origin of the world space that shaders and vertex buffers use, in world coordinates. Put it near the camera or
+    /// the scene where coordinates are large: what reaches the GPU is relative to it, in f32.
     pub origin_world: DVec3,
     /// Every how many pixels, along x and along y, `measure` looks at one. On llvmpipe 4 costs a
     /// twelfth of 1.

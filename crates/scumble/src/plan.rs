@@ -1,8 +1,9 @@
 //! From camera, scene and lights to the maps of a frame. Pure: no GPU, and the state of the sizes is copied.
 //!
-//! By light: fit; border, so that the taps of the outermost receiver fall into the map; demand, measured or from bounds;
-//! size; matrices and uniforms. Demand without a measurement: the radius itself (PCF), the settings' smallest radius
-//! (PCSS), 0 (one tap), so a PCSS map starts at the cap unless `radius_min_world` or `texel_floor_world` bound it.
+//! By light: fit; border, so that the taps of the outermost receiver fall into the map; demand, measured or from
+//! bounds; size; matrices and uniforms. Demand without a measurement: the radius itself (PCF), the settings' smallest
+//! radius (PCSS), 0 (one tap), so a PCSS map starts at the cap unless `radius_min_world` or `texel_floor_world` bound
+//! it.
 
 use bytemuck::Zeroable;
 use glam::{DMat4, DVec3, Mat4};
@@ -143,7 +144,8 @@ fn light_uniform(settings: &Settings, options: &Options, view: &View) -> LightUn
     let fit = &view.fit;
     let texel_world = view.texel_world();
     let (is_spot, light_size, depth_of_zero) = match fit.light {
-        // Depth along parallel light has no origin of its own: the shaders' is at their world's, so that f32 carries it.
+        // Depth along parallel light has no origin of its own: the shaders' is at their world's, so that f32 carries
+        // it.
         Light::Directional { half_angle, .. } => (0, half_angle.tan(), fit.depth(options.origin_world)),
         Light::Spot { radius_world, .. } => (1, radius_world, 0.0),
     };

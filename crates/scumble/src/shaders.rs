@@ -18,8 +18,8 @@ const PARTS: [&str; 6] = [BINDINGS, ROTATION, RECEIVER, PCF, PCSS, VISIBILITY];
 /// `"shadow_filter"` with [`filter_constant`](crate::filter_constant)'s value. Left out, the filter is the uploaded one.
 pub const FILTER_OVERRIDE: &str = "shadow_filter";
 
-/// WGSL to put before a shader that shades: it declares the bindings of [`Shadows::bind_group`](crate::Shadows::bind_group)
-/// in bind group `group` and gives
+/// WGSL to put before a shader that shades: it declares the bindings of
+/// [`Shadows::bind_group`](crate::Shadows::bind_group) in bind group `group` and gives
 /// `fn shadow_visibility(light: u32, position_world: vec3f, normal_world: vec3f, frag_coord: vec2f) -> f32`,
 /// the share of light number `light` of the plan that arrives: 0 to 1.
 ///

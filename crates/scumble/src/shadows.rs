@@ -163,8 +163,8 @@ impl Shadows {
         self.device.features().contains(wgpu::Features::DEPTH_CLIP_CONTROL)
     }
 
-    /// What `shadow_visibility` reads; for the group number given to [`shadow_wgsl`](crate::shadow_wgsl). The same object
-    /// for good.
+    /// What `shadow_visibility` reads; for the group number given to [`shadow_wgsl`](crate::shadow_wgsl). The same
+    /// object for good.
     #[must_use]
     pub fn bind_group(&self) -> &wgpu::BindGroup {
         self.bindings.group()
@@ -224,8 +224,8 @@ impl Shadows {
         Ok(())
     }
 
-    /// Takes the newest measurement that has come back, for the plans from here on; never waits. Results arrive while the
-    /// caller submits or polls the device. Returns whether there was one. Until the first, sizes come from bounds.
+    /// Takes the newest measurement that has come back, for the plans from here on; never waits. Results arrive while
+    /// the caller submits or polls the device. Returns whether there was one. Until the first, sizes come from bounds.
     pub fn read_demand(&mut self) -> bool {
         let Some(radii) = self.measure.as_mut().and_then(Measure::take) else { return false };
         for (state, radius) in self.states.iter_mut().zip(radii) {

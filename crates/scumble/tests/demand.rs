@@ -172,6 +172,7 @@ fn the_loop_rests_where_a_box_touches_the_ground() {
     let mut rig = Rig::new(settings(1024), Options::default(), &scene);
     let sizes = run(&mut rig, &sun, 160);
     assert!(sizes[120..].iter().all(|&size| size == sizes[159]), "{sizes:?}");
-    // The pixel decides: 8 m in 96 pixels need no more than about 96 texels for what is seen, a little more for the box.
+    // The pixel decides: 8 m in 96 pixels need no more than about 96 texels for what is seen, a little more for the
+    // box.
     assert!(sizes[159][0] < 512, "{:?}", sizes[159]);
 }

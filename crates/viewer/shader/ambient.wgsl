@@ -1,8 +1,8 @@
-// How open a receiver is to the sky, from the G-buffer alone (ambient obscurance; idea: McGuire et al. 2011, "The Alchemy
-// screen-space ambient obscurance algorithm"). For the pictures only: it plays no part in any measurement.
+// How open a receiver is to the sky, from the G-buffer alone (ambient obscurance; idea: McGuire et al. 2011, "The
+// Alchemy screen-space ambient obscurance algorithm"). For the pictures only: it plays no part in any measurement.
 //
-// openness = max(0, 1 - strength * mean over taps of max(0, cos - bias) * (1 - d^2 / radius^2)), where d is the distance
-// of the receiver under the tap and cos the cosine between the normal and the way there. Prepend camera.wgsl,
+// openness = max(0, 1 - strength * mean over taps of max(0, cos - bias) * (1 - d^2 / radius^2)), where d is the
+// distance of the receiver under the tap and cos the cosine between the normal and the way there. Prepend camera.wgsl,
 // gbuffer_read.wgsl and lighting.wgsl.
 
 const TAPS: u32 = 24u;

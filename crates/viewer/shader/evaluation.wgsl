@@ -1,4 +1,5 @@
-// The visibility of the light at every receiver, by the drop-in's own function. Prepend gbuffer_read.wgsl and the text of
+// The visibility of the light at every receiver, by the drop-in's own function. Prepend gbuffer_read.wgsl and the text
+// of
 // `Shadows::shadow_wgsl(1)`. Pixels without a surface get 1.
 
 @fragment

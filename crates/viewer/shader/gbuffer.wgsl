@@ -1,8 +1,8 @@
 // The receivers of a frame: one position and one geometric normal per pixel, and what the shading needs.
 //
 // The geometric normal is the cross product of the position's screen derivatives, turned towards the eye, so that open
-// surfaces and doubled faces have the normal of the side that is seen. Derivatives are taken of the position relative to
-// the eye, where f32 has more digits than in the world. Prepend camera.wgsl.
+// surfaces and doubled faces have the normal of the side that is seen. Derivatives are taken of the position relative
+// to the eye, where f32 has more digits than in the world. Prepend camera.wgsl.
 
 struct Vertex {
     @location(0) position_world: vec3f,

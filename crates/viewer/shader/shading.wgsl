@@ -1,6 +1,7 @@
-// A picture: Lambert reflection of the light times its visibility, a hemisphere of sky light times the openness, a sheen
-// (Schlick's Fresnel term of a dielectric over the sky and a Blinn-Phong highlight), and a sky where there is no surface. One output pixel averages samples_per_side^2 samples of the G-buffer, after the tone
-// curve, so that bright edges are smooth too. Prepend camera.wgsl, gbuffer_read.wgsl and lighting.wgsl.
+// A picture: Lambert reflection of the light times its visibility, a hemisphere of sky light times the openness, a
+// sheen (Schlick's Fresnel term of a dielectric over the sky and a Blinn-Phong highlight), and a sky where there is no
+// surface. One output pixel averages samples_per_side^2 samples of the G-buffer, after the tone curve, so that bright
+// edges are smooth too. Prepend camera.wgsl, gbuffer_read.wgsl and lighting.wgsl.
 
 @group(1) @binding(0) var visibility: texture_2d<f32>;
 @group(1) @binding(1) var openness: texture_2d<f32>;

@@ -1,9 +1,9 @@
 //! `bench`: what a size costs and what it changes, by scene and method.
 //!
-//! Times are medians over frames in which the variants take turns, so that a machine that warms up or gets busy does so for
-//! all of them. Errors are of the visibility at every pixel, against the same filter over the hard shadow without texels, on
-//! the surface around the very positions and normals that the shader saw: what the texel does, its bias, and the
-//! tangent plane that a map compares with where the surface is folded.
+//! Times are medians over frames in which the variants take turns, so that a machine that warms up or gets busy does so
+//! for all of them. Errors are of the visibility at every pixel, against the same filter over the hard shadow without
+//! texels, on the surface around the very positions and normals that the shader saw: what the texel does, its bias, and
+//! the tangent plane that a map compares with where the surface is folded.
 
 mod comparison;
 mod pictures;

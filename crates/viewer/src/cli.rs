@@ -114,7 +114,7 @@ pub struct View {
 /// What shot, bench and truth share.
 #[derive(Clone, Debug, Args)]
 pub struct Conditions {
-    /// Size of the light: angular radius in degrees of a sun, radius in metres of a lamp [default: the scene's]
+    /// Size of the light: half angle in degrees of a sun, radius in metres of a lamp [default: the scene's]
     #[arg(long, value_name = "W", value_parser = positive, allow_negative_numbers = true)]
     pub light_size: Option<f64>,
     /// Filter radius of pcf in metres at the shadow [default: the scene's]
@@ -123,8 +123,8 @@ pub struct Conditions {
     /// relation.json of a study: texels per filter radius [default: the published 3.47]
     #[arg(long, value_name = "FILE")]
     pub relation: Option<PathBuf>,
-    /// Most texels per side of an adaptive map. Where the screen asks for more, pcss widens its narrowest shadows to what
-    /// the map hides; pcf keeps its radius and shows texels; the records say `capped`
+    /// Most texels per side of an adaptive map. Where the screen asks for more, pcss widens its narrowest shadows to
+    /// what the map hides; pcf keeps its radius and shows texels; the records say `capped`
     #[arg(long, default_value_t = 1024, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=16_384))]
     pub cap: u32,
     /// Pixels across

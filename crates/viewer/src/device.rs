@@ -9,8 +9,8 @@ use anyhow::{Context, Result, anyhow};
 const NO_ADAPTER: &str = "no graphics adapter found: install a Vulkan driver (Debian and Ubuntu: `apt-get install \
                           mesa-vulkan-drivers libvulkan1`, which renders on the processor) or a driver for the card";
 
-/// The most powerful adapter. OpenGL is asked last and only where nothing else answers: looking for it without a display
-/// makes system libraries print complaints of their own.
+/// The most powerful adapter. OpenGL is asked last and only where nothing else answers: looking for it without a
+/// display makes system libraries print complaints of their own.
 fn adapter() -> Result<wgpu::Adapter> {
     let options =
         wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };

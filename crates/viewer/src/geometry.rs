@@ -1,5 +1,5 @@
-//! A scene on the device: one stream of positions, which is all that a shadow map reads, one of normals and colours, and
-//! one list of triangles.
+//! A scene on the device: one stream of positions, which is all that a shadow map reads, one of normals and colours,
+//! and one list of triangles.
 
 use anyhow::{Result, ensure};
 use glam::Vec3;

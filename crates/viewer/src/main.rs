@@ -1,7 +1,7 @@
 //! Pictures and benchmarks of adaptive shadow maps on real scenes.
 //!
-//! A frame has four steps, each a pass that is timed on its own: the G-buffer (positions and normals of what is seen), the
-//! depth pass of the shadow map, the demand (which size would hide the texels), and the evaluation (the drop-in's
+//! A frame has four steps, each a pass that is timed on its own: the G-buffer (positions and normals of what is seen),
+//! the depth pass of the shadow map, the demand (which size would hide the texels), and the evaluation (the drop-in's
 //! `shadow_visibility` at every pixel). A picture adds shading. The benchmark compares what was evaluated with the ground
 //! truth of `scumble-reference` at the very same positions and normals.
 //!

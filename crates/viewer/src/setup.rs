@@ -52,8 +52,9 @@ impl Setup {
     }
 }
 
-/// The radius at the light's reference plane that is `radius_world` at what the camera looks at. Users think of the shadow
-/// they see; a spot's reference plane is its near plane, where the same kernel is smaller by the ratio of the depths.
+/// The radius at the light's reference plane that is `radius_world` at what the camera looks at. Users think of the
+/// shadow they see; a spot's reference plane is its near plane, where the same kernel is smaller by the ratio of the
+/// depths.
 fn pcf_radius_plane(scene: &Scene, radius_world: f64) -> Result<f64> {
     let fit = scumble_core::fit(&scene.camera, &scene.bounds(), &scene.light, true)
         .with_context(|| format!("the scene {}", scene.name))?;
@@ -68,7 +69,7 @@ fn set_light_size(light: &mut Light, size: f64) -> Result<()> {
         Light::Directional { half_angle, .. } => {
             ensure!(
                 size <= HALF_ANGLE_MAX_DEG,
-                "--light-size {size}: the angular radius of a sun is at most {HALF_ANGLE_MAX_DEG} degrees"
+                "--light-size {size}: the half angle of a sun is at most {HALF_ANGLE_MAX_DEG} degrees"
             );
             *half_angle = size.to_radians();
         }

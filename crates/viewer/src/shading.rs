@@ -1,7 +1,7 @@
 //! From receivers and visibility to a picture: Lambert reflection, sky light with ambient obscurance, a simple sky.
 //!
-//! The G-buffer has `samples_per_side`^2 samples per pixel of the picture; they are averaged after the tone curve. Nothing
-//! here is measured: the pictures show what the numbers say.
+//! The G-buffer has `samples_per_side`^2 samples per pixel of the picture; they are averaged after the tone curve.
+//! Nothing here is measured: the pictures show what the numbers say.
 
 use anyhow::{Context, Result};
 use glam::{DVec3, Vec3};

@@ -74,8 +74,8 @@ pub fn run(options: &Truth) -> Result<()> {
     Ok(())
 }
 
-/// Visibility without texels of every pixel of a picture `width_px` wide; 1 where there is no surface or the light has no
-/// view. The plan's fit says where the reference plane is, on which radii are measured.
+/// Visibility without texels of every pixel of a picture `width_px` wide; 1 where there is no surface or the light has
+/// no view. The plan's fit says where the reference plane is, on which radii are measured.
 pub fn true_visibility(
     message: &str,
     rays: &Rays,

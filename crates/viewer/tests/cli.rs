@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// The viewer, without Mesa's layer that looks for a Wayland display and complains on standard error where there is none.
+/// The viewer, without Mesa's layer that looks for a Wayland display and complains on standard error where there is
+/// none.
 fn program() -> Command {
     let mut program = Command::new(env!("CARGO_BIN_EXE_scumble-viewer"));
     program.env("NODEVICE_SELECT", "1");

@@ -21,7 +21,8 @@ pub fn yard(assets: &Path) -> Result<Scene, Error> {
         .map(|i| Placement::at((f64::from(i) - f64::from(PANELS - 1) / 2.0) * PANEL_PITCH, -1.6, 0.0))
         .collect();
 
-    // A terrace that ends behind the fence and in front of the camera: what lies beyond would only widen the light's view.
+    // A terrace that ends behind the fence and in front of the camera: what lies beyond would only widen the light's
+    // view.
     let mut meshes =
         vec![cuboid("terrace", DVec3::new(-5.6, -0.15, -2.6), DVec3::new(6.0, 0.0, 4.4), Vec3::new(0.50, 0.46, 0.38))];
     meshes.extend(place(&fence, &panels));

@@ -1,9 +1,9 @@
 //! How far a variant's visibility is from the truth, over the pixels where it matters.
 //!
-//! *Lit-facing* pixels turn their geometric normal towards the light and lie in its cone: the others are dark whatever the
-//! map says. *Penumbra* pixels are those of them whose true visibility is neither 0 nor 1: there the texels show.
-//! The *violation share* is the share of penumbra pixels whose filter is narrower than c texels of the map where a texel is
-//! also larger than the pixel: there the relation says that texels are seen.
+//! *Lit-facing* pixels turn their geometric normal towards the light and lie in its cone: the others are dark whatever
+//! the map says. *Penumbra* pixels are those of them whose true visibility is neither 0 nor 1: there the texels show.
+//! The *violation share* is the share of penumbra pixels whose filter is narrower than c texels of the map where a
+//! texel is also larger than the pixel: there the relation says that texels are seen.
 
 use anyhow::Result;
 use scumble::Light;
