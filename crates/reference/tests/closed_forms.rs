@@ -6,8 +6,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
+mod common;
+
+use common::sun;
 use glam::{DVec3, Vec3};
-use scumble_core::{Camera, Filter, Fit, Light, Taps, fit, half_plane_under_disc};
+use scumble_core::{Filter, Fit, Light, Taps, fit, half_plane_under_disc};
 use scumble_reference::{KernelTruth, Rays, Receiver};
 use scumble_scenes::{Mesh, Scene, cuboid, ground};
 
@@ -33,25 +36,7 @@ fn scene(light: Light, lids: &[(f64, f64)]) -> Scene {
     };
     let mut meshes = vec![ground("ground", DVec3::ZERO, 16.0, Vec3::ONE)];
     meshes.extend(lids.iter().map(lid));
-    Scene {
-        name: "lids".to_owned(),
-        meshes,
-        camera: Camera {
-            eye: DVec3::new(0.0, 3.0, 6.0),
-            target: DVec3::ZERO,
-            up: DVec3::Y,
-            vertical_fov: 1.0,
-            aspect: 1.5,
-            near: 0.1,
-            far: 100.0,
-        },
-        light,
-        pcf_radius_world: 0.2,
-    }
-}
-
-fn sun(direction: DVec3) -> Light {
-    Light::Directional { direction, half_angle: 0.1 }
+    common::scene(light, meshes)
 }
 
 fn view(scene: &Scene) -> Fit {

@@ -6,32 +6,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
+mod common;
+
+use common::{scene, sun};
 use glam::{DVec3, Vec3};
-use scumble_core::{Camera, Filter, Light, fit};
+use scumble_core::{Filter, Light, fit};
 use scumble_reference::{KernelTruth, Rays, Receiver};
 use scumble_scenes::{Mesh, Scene, cuboid, ground};
-
-fn scene(light: Light, meshes: Vec<Mesh>) -> Scene {
-    Scene {
-        name: "folds".to_owned(),
-        meshes,
-        camera: Camera {
-            eye: DVec3::new(0.0, 3.0, 6.0),
-            target: DVec3::ZERO,
-            up: DVec3::Y,
-            vertical_fov: 1.0,
-            aspect: 1.5,
-            near: 0.1,
-            far: 100.0,
-        },
-        light,
-        pcf_radius_world: 0.2,
-    }
-}
-
-fn sun(direction: DVec3) -> Light {
-    Light::Directional { direction, half_angle: 0.1 }
-}
 
 fn lamp(position: DVec3) -> Light {
     Light::Spot { position, direction: -position.normalize(), cone_half_angle: 0.9, radius_world: 0.3 }
