@@ -31,6 +31,12 @@ impl Recorder {
             "{} holds a session already; --resume continues it, another --participant begins one",
             directory.display()
         );
+        // A folder that cannot be made is found here, and not in front of the participant.
+        if let Some(study) = directory.parent().filter(|study| !study.as_os_str().is_empty()) {
+            std::fs::create_dir_all(study).map_err(|error| {
+                anyhow::anyhow!("{}: cannot be the study's folder: {error}; allowed is a folder", study.display())
+            })?;
+        }
         let state = State::Planned(Box::new(header));
         Ok(Self { directory: directory.into(), state, px_per_degree })
     }

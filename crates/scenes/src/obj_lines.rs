@@ -1,6 +1,6 @@
 //! Checks the lines of an OBJ file before it is loaded, because only here a problem still has a line number.
 //!
-//! Checked: coordinates are finite `f32` numbers, and a face refers only to vertices and normals that the file has.
+//! Checked: coordinates are finite `f32` numbers, a face has three corners or more and refers only to vertices and normals that the file has.
 //! Indices count from 1; negative ones count back from the last vertex given so far (Wavefront, *Object Files*, B1).
 
 /// The first problem of an OBJ file.
@@ -21,6 +21,7 @@ struct Counts([usize; 3]);
 const KEYWORDS: [&str; 3] = ["v", "vt", "vn"];
 const NAMES: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 const ALLOWED_NUMBERS: &str = "allowed are finite numbers, three of them";
+const ALLOWED_CORNERS: &str = "allowed are three corners or more";
 const ALLOWED_INDICES: &str = "allowed are indices from 1 to the number given, or negative ones that count back";
 
 /// Checks all lines; the first problem ends the check.
@@ -76,7 +77,9 @@ fn check_numbers<'a>(words: impl Iterator<Item = &'a str>) -> Checked {
 }
 
 fn check_face<'a>(words: impl Iterator<Item = &'a str>, so_far: Counts, total: Counts) -> Checked {
+    let mut corners = 0;
     for word in words {
+        corners += 1;
         for (kind, index) in word.split('/').enumerate() {
             // `1//3` leaves the texture coordinate out.
             if index.is_empty() && kind > 0 {
@@ -94,6 +97,9 @@ fn check_face<'a>(words: impl Iterator<Item = &'a str>, so_far: Counts, total: C
                 return Err((problem, ALLOWED_INDICES));
             }
         }
+    }
+    if corners < 3 {
+        return Err((format!("a face of {corners} corners"), ALLOWED_CORNERS));
     }
     Ok(())
 }
@@ -119,6 +125,7 @@ mod tests {
         let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
         let face = |f: &str| problem_of(&format!("{vertices}f {f}\n"));
         assert_eq!(face("1 2 4").0, 4);
+        assert_eq!(face("1 2"), (4, "a face of 2 corners".to_owned()));
         assert_eq!(face("0 1 2").0, 4);
         assert_eq!(face("-4 1 2").0, 4);
         assert_eq!(face("1 2 x").0, 4);

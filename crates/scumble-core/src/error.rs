@@ -34,7 +34,7 @@ pub enum Error {
         allowed: &'static str,
     },
     /// A relation file that is no JSON, or whose fields have other types.
-    #[error("relation file: {0}")]
+    #[error("relation file: {0}; allowed is JSON, whose numbers are finite")]
     Json(#[from] serde_json::Error),
 }
 

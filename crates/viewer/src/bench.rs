@@ -28,6 +28,9 @@ use crate::timer::Timer;
 use crate::truth::true_visibility;
 use crate::variant::Variant;
 
+/// What the record says it is.
+const SCHEMA: &str = "scumble/bench/1";
+
 /// Samples per pixel along x and along y of the pictures.
 const SAMPLES_PER_SIDE: u32 = 2;
 
@@ -52,7 +55,7 @@ pub fn run(options: &Bench) -> Result<()> {
     };
     make_directory(&options.out)?;
     let table_path = claim(&options.out.join("bench.csv"), Kind::Csv)?;
-    let record_path = claim(&options.out.join("bench.json"), Kind::Json)?;
+    let record_path = claim(&options.out.join("bench.json"), Kind::Json(SCHEMA))?;
     let mut conditions = options.conditions.clone();
     if options.quick {
         conditions.width = conditions.width.div_ceil(2);
@@ -72,7 +75,7 @@ pub fn run(options: &Bench) -> Result<()> {
 
     write(&table_path, table(&rows)?.as_bytes())?;
     let record = BenchRecord {
-        schema: "scumble/bench/1",
+        schema: SCHEMA,
         machine,
         ratio,
         width: size_px[0],

@@ -7,13 +7,13 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 const EXAMPLES: &str = "\
 Examples:
-  scumble-viewer shot --scene lamp --method pcss --size adaptive --out lamp.png
-      one picture with the smallest shadow map that hides its texels, and lamp.json beside it
+  scumble-viewer shot --scene stairwell --method pcss --size adaptive --out stairs.png
+      one picture with the smallest shadow map that hides its texels, and stairs.json beside it
   scumble-viewer shot --scene path/to/model.glb --method pcf --size 2048 --radius 0.05 --out model.png
       a scene of your own under a fixed map of 2048 x 2048 texels
-  scumble-viewer bench --scenes lamp --methods pcf,pcss --sizes 512,2048,adaptive --out results
+  scumble-viewer bench --scenes stairwell --methods pcf,pcss --sizes 512,2048,adaptive --out results
       times, texels and errors against ground truth: results/bench.csv, bench.json and pictures
-  scumble-viewer truth --scene lamp --method pcss --out truth.png
+  scumble-viewer truth --scene stairwell --method pcss --out truth.png
       the same filter over an alias-free shadow, by rays on the processor
 
 `scumble-viewer scenes` lists the catalogue. Lengths are metres.";
@@ -216,6 +216,17 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn the_examples_name_scenes_of_the_catalogue() {
+        let words: Vec<&str> = EXAMPLES.split_whitespace().collect();
+        let scenes = words.windows(2).filter(|pair| pair[0].starts_with("--scene")).map(|pair| pair[1]);
+        let named: Vec<&str> = scenes.filter(|scene| !scene.contains('/')).collect();
+        assert!(named.len() >= 3);
+        for name in named {
+            assert!(scumble_scenes::catalogue().iter().any(|entry| entry.name == name), "{name}");
+        }
     }
 
     #[test]

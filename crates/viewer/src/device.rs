@@ -18,11 +18,18 @@ fn adapter() -> Result<wgpu::Adapter> {
     for backends in [asked & wgpu::Backends::PRIMARY, asked & wgpu::Backends::SECONDARY] {
         let descriptor =
             wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle_from_env() };
-        if let Ok(adapter) = pollster::block_on(wgpu::Instance::new(descriptor).request_adapter(&options)) {
-            return Ok(adapter);
+        match pollster::block_on(wgpu::Instance::new(descriptor).request_adapter(&options)) {
+            Ok(adapter) if can_draw(&adapter) => return Ok(adapter),
+            _ => {}
         }
     }
     Err(anyhow!(NO_ADAPTER))
+}
+
+/// Whether the adapter draws to every format of the G-buffer; OpenGL ES may lack floats of 32 bits.
+fn can_draw(adapter: &wgpu::Adapter) -> bool {
+    let features = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float);
+    features.allowed_usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT)
 }
 
 /// An open device with its queue.

@@ -11,8 +11,8 @@ use serde::Serialize;
 pub enum Kind {
     /// A picture.
     Png,
-    /// A record of this program, with a `schema` that starts with `scumble/`.
-    Json,
+    /// A record of this program of this `schema`; other files of the project are JSON too.
+    Json(&'static str),
     /// A table whose first column is `scene`.
     Csv,
     /// Little-endian f32 values, described by the JSON file of the same name.
@@ -23,7 +23,7 @@ impl Kind {
     fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
-            Self::Json => "json",
+            Self::Json(_) => "json",
             Self::Csv => "csv",
             Self::Raw => "f32",
         }
@@ -35,8 +35,9 @@ impl Kind {
             Self::Png => bytes.starts_with(b"\x89PNG\r\n\x1a\n"),
             Self::Csv => bytes.starts_with(b"scene,"),
             Self::Raw => path.with_extension("json").is_file(),
-            Self::Json => serde_json::from_slice::<serde_json::Value>(bytes)
-                .is_ok_and(|value| value["schema"].as_str().is_some_and(|schema| schema.starts_with("scumble/"))),
+            Self::Json(schema) => {
+                serde_json::from_slice::<serde_json::Value>(bytes).is_ok_and(|value| value["schema"] == schema)
+            }
         }
     }
 }
@@ -55,10 +56,22 @@ pub fn claim(path: &Path, kind: Kind) -> Result<PathBuf> {
     if path.exists() {
         let bytes = fs::read(path).with_context(|| format!("{}: cannot be replaced", path.display()))?;
         if !kind.matches(path, &bytes) {
-            bail!("{}: is there and not a {extension} file of this program; choose another name", path.display());
+            bail!("{}: is there and is no {extension} file of this command; choose another name", path.display());
         }
     }
     Ok(path.to_owned())
+}
+
+/// A picture and its record of the same name beside it. A picture without its record is somebody else's.
+pub fn claim_with_record(picture: &Path, schema: &'static str) -> Result<(PathBuf, PathBuf)> {
+    let record = claim(&picture.with_extension("json"), Kind::Json(schema))?;
+    let picture = claim(picture, Kind::Png)?;
+    ensure!(
+        record.exists() || !picture.exists(),
+        "{}: is there without this program's record beside it; choose another name",
+        picture.display()
+    );
+    Ok((picture, record))
 }
 
 /// Makes the directory of a command's results.
@@ -101,12 +114,26 @@ mod tests {
     fn a_result_replaces_its_own_kind_and_nothing_else() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("notes.json");
-        claim(&path, Kind::Json).unwrap();
+        let kind = Kind::Json("scumble/shot/1");
+        claim(&path, kind).unwrap();
         write_json(&path, &serde_json::json!({ "schema": "scumble/shot/1" })).unwrap();
-        claim(&path, Kind::Json).unwrap();
-        fs::write(&path, r#"{ "name": "somebody's package" }"#).unwrap();
-        let refused = claim(&path, Kind::Json).unwrap_err().to_string();
-        assert!(refused.contains("notes.json") && refused.contains("choose another name"), "{refused}");
+        claim(&path, kind).unwrap();
+        for other in [r#"{ "name": "somebody's package" }"#, r#"{ "schema": "scumble/relation/1" }"#] {
+            fs::write(&path, other).unwrap();
+            let refused = claim(&path, kind).unwrap_err().to_string();
+            assert!(refused.contains("notes.json") && refused.contains("choose another name"), "{refused}");
+        }
+    }
+
+    #[test]
+    fn a_picture_without_its_record_is_somebody_elses() {
+        let directory = tempfile::tempdir().unwrap();
+        let picture = directory.path().join("holiday.png");
+        fs::write(&picture, b"\x89PNG\r\n\x1a\n").unwrap();
+        let refused = claim_with_record(&picture, "scumble/shot/1").unwrap_err().to_string();
+        assert!(refused.contains("holiday.png"), "{refused}");
+        write_json(&picture.with_extension("json"), &serde_json::json!({ "schema": "scumble/shot/1" })).unwrap();
+        claim_with_record(&picture, "scumble/shot/1").unwrap();
     }
 
     #[test]

@@ -8,13 +8,16 @@ use serde::Serialize;
 
 use crate::cli::Shot;
 use crate::device::Gpu;
-use crate::output::{Kind, claim, write_json, write_png};
+use crate::output::{claim_with_record, write_json, write_png};
 use crate::record::{MachineRecord, MapRecord, RatioRecord};
 use crate::setup::Setup;
 use crate::stage::Stage;
 use crate::statistics::Spread;
 use crate::timer::Timer;
 use crate::variant::Variant;
+
+/// What the record says it is.
+const SCHEMA: &str = "scumble/shot/1";
 
 /// Frames whose median is reported.
 const TIMED_FRAMES: usize = 5;
@@ -50,8 +53,7 @@ struct DemandRecord {
 /// Runs the command.
 pub fn run(options: &Shot) -> Result<()> {
     let conditions = &options.view.conditions;
-    let picture_path = claim(&options.out, Kind::Png)?;
-    let record_path = claim(&options.out.with_extension("json"), Kind::Json)?;
+    let (picture_path, record_path) = claim_with_record(&options.out, SCHEMA)?;
     let setup = Setup::open(&options.view.scene, conditions)?;
     let stage = Stage::new(Gpu::open()?, setup)?;
 
@@ -76,7 +78,7 @@ pub fn run(options: &Shot) -> Result<()> {
     let demand = DemandRecord { radius_world: variant.demand_radius_world(&stage, &receivers)? };
     let plan = variant.plan()?;
     let record = ShotRecord {
-        schema: "scumble/shot/1",
+        schema: SCHEMA,
         scene: &stage.setup.scene.name,
         method: options.method.name(),
         size: options.size.to_string(),

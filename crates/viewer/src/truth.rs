@@ -9,11 +9,14 @@ use crate::bench::progress;
 use crate::cli::{Size, Truth};
 use crate::device::Gpu;
 use crate::gbuffer::Surface;
-use crate::output::{Kind, claim, write_json, write_png, write_raw};
+use crate::output::{Kind, claim, claim_with_record, write_json, write_png, write_raw};
 use crate::setup::Setup;
 use crate::stage::Stage;
 use crate::timer::Timer;
 use crate::variant::Variant;
+
+/// What the record says it is.
+const SCHEMA: &str = "scumble/truth/1";
 
 /// Samples per pixel along x and along y.
 const SAMPLES_PER_SIDE: u32 = 2;
@@ -39,8 +42,7 @@ struct TruthRecord<'a> {
 /// Runs the command.
 pub fn run(options: &Truth) -> Result<()> {
     let conditions = &options.view.conditions;
-    let picture_path = claim(&options.out, Kind::Png)?;
-    let record_path = claim(&options.out.with_extension("json"), Kind::Json)?;
+    let (picture_path, record_path) = claim_with_record(&options.out, SCHEMA)?;
     let raw_path = claim(&options.out.with_extension("f32"), Kind::Raw)?;
     let setup = Setup::open(&options.view.scene, conditions)?;
     let stage = Stage::new(Gpu::open()?, setup)?;
@@ -59,7 +61,7 @@ pub fn run(options: &Truth) -> Result<()> {
     write_png(&picture_path, &stage.picture(&samples, &texture, SAMPLES_PER_SIDE)?)?;
     write_raw(&raw_path, &visibility)?;
     let record = TruthRecord {
-        schema: "scumble/truth/1",
+        schema: SCHEMA,
         scene: &stage.setup.scene.name,
         method: options.method.name(),
         light: &stage.setup.scene.light,
