@@ -66,7 +66,7 @@ fn table(summary: &Summary) -> Result<String> {
          Milliseconds are medians (quartiles) of {} frames that took turns, {} x {} pixels, on {}. The error is that of \
          the shadow fraction against the same filter over the exact hard shadow, by rays, with neither texels nor bias.</p>\
          <table><thead><tr><th>Scene<th>Filter<th>Map<th>Texels<th>Depth map, ms<th>Demand, ms<th>Evaluation, ms\
-         <th>RMS error, penumbra<th>99 %<th>RMS, all lit sides<th>Texels seen</thead><tbody>",
+         <th>RMS error, penumbra<th>99 %<th>RMS, all lit sides<th>Violation</thead><tbody>",
         bench.frames, bench.width, bench.height, bench.machine.device
     );
     for row in &bench.rows {
@@ -89,7 +89,7 @@ fn table(summary: &Summary) -> Result<String> {
         )?;
     }
     html += "</tbody></table>";
-    html += "<p><i>Texels seen</i>: share of the penumbra whose filter is narrower than the fitted ratio asks for. \
+    html += "<p><i>Violation</i>: share of the penumbra whose filter is narrower than the fitted ratio asks for. \
              <i>At the cap</i>: something on screen, mostly a contact, asks for more texels than allowed; soft shadows \
              narrower than the map can hide are widened instead, as Kreuzer does (2017, 5.1.3).</p>";
     Ok(html)
