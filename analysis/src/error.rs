@@ -46,12 +46,12 @@ pub enum Unidentified {
 #[derive(Debug, Error)]
 pub enum Error {
     /// A file or a folder could not be read or written.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {reason}", path.display())]
     Io {
         /// File or folder.
         path: PathBuf,
         /// The system's reason.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
     /// A table has a wrong cell, row or header.
     #[error("{}: line {line}: {reason}", path.display())]
@@ -104,6 +104,6 @@ impl Error {
     /// Names the file in an input or output error.
     pub(crate) fn io(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_path_buf();
-        move |source| Self::Io { path, source }
+        move |reason| Self::Io { path, reason }
     }
 }

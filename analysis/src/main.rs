@@ -120,22 +120,11 @@ fn lapse(text: &str) -> Result<Parameter, String> {
     Ok(Parameter::Fixed(value))
 }
 
-/// An error with its causes, each told once: some messages hold their cause already.
-fn in_words(error: &anyhow::Error) -> String {
-    let mut words = error.to_string();
-    for cause in error.chain().skip(1).map(ToString::to_string) {
-        if !words.contains(&cause) {
-            words = format!("{words}: {cause}");
-        }
-    }
-    words
-}
-
 fn main() -> ExitCode {
     match run(Arguments::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", in_words(&error));
+            eprintln!("error: {error:#}");
             ExitCode::FAILURE
         }
     }

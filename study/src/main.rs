@@ -29,7 +29,7 @@ fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("scumble-study: {}", study::in_words(&error));
+            eprintln!("scumble-study: {error:#}");
             ExitCode::FAILURE
         }
     }

@@ -129,7 +129,7 @@ impl Study {
     }
 
     fn stop(&mut self, error: &anyhow::Error) {
-        let problem = in_words(error);
+        let problem = format!("{error:#}");
         *self.outcome.borrow_mut() = Outcome::Stopped(problem.clone());
         self.overlay = Overlay::Stopped(problem);
     }
@@ -155,18 +155,6 @@ impl eframe::App for Study {
             self.stop(&error.into());
         }
     }
-}
-
-/// An error with its causes, but for causes that the error's own words repeat.
-pub(crate) fn in_words(error: &anyhow::Error) -> String {
-    let mut words = String::new();
-    for cause in error.chain().map(ToString::to_string) {
-        if !words.contains(&cause) {
-            words += if words.is_empty() { "" } else { ": " };
-            words += &cause;
-        }
-    }
-    words
 }
 
 /// The display that the window is on, as far as the system tells.

@@ -64,12 +64,12 @@ pub enum Error {
     #[error("{} is being written by another program; allowed is one writer", .0.display())]
     SessionInUse(PathBuf),
     /// The operating system refused a file.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {reason}", path.display())]
     Io {
         /// The file or directory.
         path: PathBuf,
         /// The system's reason.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
 }
 
@@ -82,7 +82,7 @@ impl Error {
     /// The system's refusal of `path`.
     pub(crate) fn io(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
-        move |source| Self::Io { path, source }
+        move |reason| Self::Io { path, reason }
     }
 }
 

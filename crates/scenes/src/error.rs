@@ -14,12 +14,12 @@ pub enum Error {
         known: String,
     },
     /// The file cannot be read.
-    #[error("{}: cannot be read: {source}", file.display())]
+    #[error("{}: cannot be read: {reason}", file.display())]
     Read {
         /// The file.
         file: PathBuf,
         /// The system's reason.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
     /// The file is read but is not what it says, or holds what is not allowed.
     #[error("{}, {place}: {problem}; {allowed}", file.display())]

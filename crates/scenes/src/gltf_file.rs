@@ -23,7 +23,7 @@ struct Source<'a> {
 /// Loads a glTF file, in metres and world space.
 pub fn load_gltf(file: &Path) -> Result<Vec<Mesh>, Error> {
     // Decode the document and its buffers.
-    let bytes = std::fs::read(file).map_err(|source| Error::Read { file: file.to_owned(), source })?;
+    let bytes = std::fs::read(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
     let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).map_err(|problem| not_gltf(file, &problem))?;
     let buffers = gltf::import_buffers(&document, file.parent(), blob).map_err(|problem| bad_buffer(file, &problem))?;
     let image_means = crate::gltf_color::image_means(&document, file, &buffers);

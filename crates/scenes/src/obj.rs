@@ -53,7 +53,7 @@ pub fn load_obj(file: &Path) -> Result<Vec<Mesh>, Error> {
 }
 
 fn read_text(file: &Path) -> Result<String, Error> {
-    let bytes = std::fs::read(file).map_err(|source| Error::Read { file: file.to_owned(), source })?;
+    let bytes = std::fs::read(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
     String::from_utf8(bytes).map_err(|problem| Error::Content {
         file: file.to_owned(),
         place: format!("byte {}", problem.utf8_error().valid_up_to()),

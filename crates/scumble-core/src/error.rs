@@ -35,7 +35,14 @@ pub enum Error {
     },
     /// A relation file that is no JSON, or whose fields have other types.
     #[error("relation file: {0}; allowed is JSON, whose numbers are finite")]
-    Json(#[from] serde_json::Error),
+    Json(serde_json::Error),
+}
+
+// Not `#[from]`: the message holds the reason, which as a source would be told twice.
+impl From<serde_json::Error> for Error {
+    fn from(reason: serde_json::Error) -> Self {
+        Self::Json(reason)
+    }
 }
 
 /// Returns `value` when `holds`, else the error that names it.

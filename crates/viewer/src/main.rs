@@ -46,7 +46,7 @@ fn main() -> ExitCode {
     };
     match run(cli) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => refuse(&format!("error: {}", causes(&error))),
+        Err(error) => refuse(&format!("error: {}", format!("{error:#}").replace('\n', " "))),
     }
 }
 
@@ -68,17 +68,6 @@ fn run(cli: Cli) -> Result<()> {
 fn refuse(line: &str) -> ExitCode {
     eprintln!("{line}");
     ExitCode::FAILURE
-}
-
-/// An error with its causes, each told once: some messages hold their cause already.
-fn causes(error: &anyhow::Error) -> String {
-    let mut line = error.to_string();
-    for cause in error.chain().skip(1).map(ToString::to_string) {
-        if !line.contains(&cause) {
-            line = format!("{line}: {cause}");
-        }
-    }
-    line.replace('\n', " ")
 }
 
 /// The first paragraph of a parser's complaint, which names the option, the value and what is allowed, as one line.
