@@ -13,7 +13,7 @@ use rand_chacha::rand_core::SeedableRng;
 pub(crate) enum Purpose {
     /// Order of the rounds.
     Rounds = 0,
-    /// Order of the QUESTs of a round.
+    /// Order of the staircases of a round.
     Interleaving = 1,
     /// Pictures of a trial.
     Pictures = 2,
@@ -25,6 +25,8 @@ pub(crate) enum Purpose {
     PracticeAnswer = 5,
     /// Differences between simulated people.
     Person = 6,
+    /// What a trial is for.
+    Roles = 7,
 }
 
 /// A stream of random numbers.
@@ -62,8 +64,8 @@ impl Draw {
 
     /// A standard normal deviate (Box & Muller 1958).
     pub(crate) fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.unit()).cos()
+        let radius = (-2.0 * libm::log(1.0 - self.unit())).sqrt();
+        radius * libm::cos(std::f64::consts::TAU * self.unit())
     }
 
     /// A random order (Fisher & Yates).

@@ -3,14 +3,16 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use crate::trial::{Side, Trial};
+use crate::trial::{Answer, Role, Trial};
 
 /// One line of the record. The states of the QUESTs are not in it: they follow from the answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "snake_case")]
 pub enum Event {
-    /// An answer that a QUEST learned from.
+    /// An answer that a staircase learned from.
     Trial(Answered),
+    /// An answer to a line alone or to an artifact that everyone sees; no staircase learned from it.
+    Catch(Answered),
     /// An answer in practice.
     Practice(Answered),
     /// The session was interrupted.
@@ -22,17 +24,31 @@ pub enum Event {
 }
 
 /// A trial and its answer.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Answered {
     /// What was shown.
     pub trial: Trial,
-    /// The side that the participant named as the line.
-    pub answer: Side,
-    /// Whether it was the line.
+    /// What the participant answered.
+    pub answer: Answer,
+    /// Whether it was right.
     pub correct: bool,
     /// From the first frame of the pictures to the answer.
     pub response_time_secs: f64,
+    /// SHA-256 of the pictures from left to right, as drawn; empty where none was drawn.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pictures_sha256: Vec<String>,
+}
+
+/// What comes from outside into a trial.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reply {
+    /// What the participant answers.
+    pub answer: Answer,
+    /// From the first frame of the pictures to the answer.
+    pub response_time_secs: f64,
+    /// SHA-256 of the pictures from left to right, as drawn; empty where none was drawn.
+    pub pictures_sha256: Vec<String>,
 }
 
 /// A point in time.
@@ -47,7 +63,24 @@ pub struct Moment {
 }
 
 impl Event {
-    /// The answer to a measured trial, else `None`.
+    /// The event of an answer, by the role of its trial.
+    pub(crate) fn of(answered: Answered) -> Self {
+        match answered.trial.role {
+            Role::Practice => Self::Practice(answered),
+            Role::Measure => Self::Trial(answered),
+            Role::Line | Role::Catch => Self::Catch(answered),
+        }
+    }
+
+    /// The answer that it holds, if any.
+    pub fn answered(&self) -> Option<&Answered> {
+        match self {
+            Self::Trial(answered) | Self::Catch(answered) | Self::Practice(answered) => Some(answered),
+            _ => None,
+        }
+    }
+
+    /// The answer that a staircase learned from, else `None`.
     pub fn measured(&self) -> Option<&Answered> {
         match self {
             Self::Trial(answered) => Some(answered),
@@ -59,11 +92,17 @@ impl Event {
 impl Answered {
     /// What contradicts itself in an answer read from a file, in words.
     pub(crate) fn contradiction(&self) -> Option<String> {
+        let allowed = self.trial.pictures.answers();
+        if !allowed.contains(&self.answer) {
+            return Some(format!("answer {:?} to a question that takes {allowed:?}", self.answer));
+        }
         if self.correct != self.trial.is_correct(self.answer) {
-            return Some(format!(
-                "correct {} for the answer {:?} where the line is {:?}",
-                self.correct, self.answer, self.trial.line_side
-            ));
+            let right = self.trial.pictures.right_answer();
+            return Some(format!("correct {} for the answer {:?} where {right:?} is right", self.correct, self.answer));
+        }
+        let hashes = self.pictures_sha256.len();
+        if hashes != 0 && hashes != self.trial.pictures.all().len() {
+            return Some(format!("pictures_sha256 with {hashes} entries"));
         }
         if !is_response_time(self.response_time_secs) {
             return Some(format!("response_time_secs {}", self.response_time_secs));

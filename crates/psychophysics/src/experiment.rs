@@ -3,40 +3,41 @@
 //!
 //! Everything that it shows follows from the protocol, the seed and the answers: the same seed and
 //! the same answers give the same session, image for image, and an interrupted session is resumed by
-//! feeding its recorded answers to a new machine. QUEST learns from the radius that was *shown*; a
-//! placement beyond what a picture can hold is clamped, and [`Trial`] holds both.
+//! feeding its recorded answers to a new machine. A staircase learns from the radius that was *shown*;
+//! a placement beyond what a picture can hold is clamped, and [`Trial`] holds both.
 
 use serde::{Deserialize, Serialize};
 
-use crate::draw::Purpose;
 use crate::error::{Error, require};
-use crate::event::{Answered, Event, is_response_time};
-use crate::picture::{Place, draw_trial};
+use crate::event::{Answered, Event, Reply, is_response_time};
+use crate::picture::{Request, draw_trial};
 use crate::protocol::Protocol;
-use crate::schedule::Schedule;
+use crate::timetable::Timetable;
 use crate::track::Track;
-use crate::trial::{Condition, Side, Trial};
+use crate::trial::{Condition, Role, Trial};
 
 /// What is to be shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stage {
     /// The instructions, once at the beginning.
     Instructions,
-    /// Two pictures, with feedback after the answer.
+    /// A trial with feedback after the answer.
     Practice(Trial),
     /// Whether the answer in practice was right.
     Feedback {
         /// Whether it was.
         correct: bool,
     },
-    /// Two pictures.
+    /// A trial without feedback.
     Trial(Trial),
-    /// A rest before a round; before round 1 it tells that there is no feedback from here on.
+    /// A rest; before round 1 it tells that there is no feedback from here on.
     Rest {
-        /// The round that follows, from 1.
+        /// The round that follows or goes on, from 1.
         round: u32,
         /// Number of rounds.
         rounds: u32,
+        /// Whether the round is under way.
+        within_round: bool,
     },
     /// Thanks.
     Finished,
@@ -67,7 +68,7 @@ impl Stage {
 /// How far a session is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Progress {
-    /// Measured trials answered.
+    /// Trials answered that a staircase learned from.
     pub trials: u32,
     /// Fewest measured trials of the whole session, given the answers so far.
     pub trials_at_least: u32,
@@ -84,20 +85,22 @@ pub struct Progress {
 pub struct Experiment {
     protocol: Protocol,
     seed: u64,
-    schedule: Schedule,
+    timetable: Timetable,
     stage: Stage,
-    /// The QUEST that the trial on show asks.
-    asked: usize,
     practised: u32,
+    /// Trials answered after practice, whatever their role.
     answered: u32,
+    /// Trials answered since the last rest.
+    since_rest: u32,
 }
 
 impl Experiment {
     /// A session before its first screen; errors name the parameter that is out of its range.
-    pub fn new(protocol: Protocol, seed: u64) -> Result<Self, Error> {
+    pub fn new(protocol: Protocol, seed: u64, participant_number: u32) -> Result<Self, Error> {
         protocol.check()?;
-        let schedule = Schedule::new(&protocol, seed)?;
-        Ok(Self { protocol, seed, schedule, stage: Stage::Instructions, asked: 0, practised: 0, answered: 0 })
+        let timetable = Timetable::new(&protocol, seed, participant_number)?;
+        let stage = Stage::Instructions;
+        Ok(Self { protocol, seed, timetable, stage, practised: 0, answered: 0, since_rest: 0 })
     }
 
     /// What is to be shown.
@@ -109,22 +112,41 @@ impl Experiment {
     pub fn proceed(&mut self) -> Result<(), Error> {
         self.stage = match self.stage {
             Stage::Instructions | Stage::Feedback { .. } => self.next_practice(),
-            Stage::Rest { .. } => self.next_trial(),
+            Stage::Rest { .. } => {
+                self.since_rest = 0;
+                self.next_trial()
+            }
             _ => return Err(self.refuse("proceed", "instructions, feedback and rest")),
         };
         Ok(())
     }
 
-    /// Takes the side that the participant names as the line, and gives the event that must be on
-    /// disk before the next stage is shown.
+    /// Takes an answer, and gives the event that must be on disk before the next stage is shown.
     ///
-    /// Errors, which leave the session as it was: a stage without a trial, and a response time that
-    /// is negative or not finite.
-    pub fn answer(&mut self, side: Side, response_time_secs: f64) -> Result<Event, Error> {
+    /// Errors, which leave the session as it was: a stage without a trial, an answer that the question
+    /// does not allow, and a response time that is negative or not finite.
+    pub fn answer(&mut self, reply: Reply) -> Result<Event, Error> {
         let Some(trial) = self.stage.trial().copied() else {
             return Err(self.refuse("answer", "practice and trial"));
         };
-        self.answer_shown(trial, side, response_time_secs)
+        let Reply { answer, response_time_secs, pictures_sha256 } = reply;
+        let allowed = "a finite number of seconds, at least 0";
+        require(is_response_time(response_time_secs), "response_time_secs", response_time_secs, allowed)?;
+        let of_question = trial.pictures.answers().contains(&answer);
+        let allowed = "left and right for two pictures, yes and no for one";
+        require(of_question, "answer", format!("{answer:?}"), allowed)?;
+        let correct = trial.is_correct(answer);
+        let answered = Answered { trial, answer, correct, response_time_secs, pictures_sha256 };
+        if trial.role == Role::Practice {
+            self.practised += 1;
+            self.stage = Stage::Feedback { correct };
+        } else {
+            self.learn(&trial, correct)?;
+            self.answered += 1;
+            self.since_rest += 1;
+            self.stage = self.after_answer();
+        }
+        Ok(Event::of(answered))
     }
 
     /// Number of measured trials and rounds.
@@ -139,16 +161,16 @@ impl Experiment {
         };
         Progress {
             trials: self.answered,
-            trials_at_least: total(|trials, protocol| protocol.trials_min.max(trials + 1)),
-            trials_at_most: total(|_, protocol| protocol.trials_max),
-            round: self.schedule.round_number(),
-            rounds: self.schedule.rounds() as u32,
+            trials_at_least: total(|trials, protocol| protocol.schedule.trials_min.max(trials + 1)),
+            trials_at_most: total(|_, protocol| protocol.schedule.trials_max),
+            round: self.timetable.round_number(),
+            rounds: self.timetable.rounds() as u32,
         }
     }
 
     /// Every QUEST, in the order of the session's rounds.
     pub fn tracks(&self) -> &[Track] {
-        self.schedule.tracks()
+        self.timetable.tracks()
     }
 
     /// The parameters.
@@ -156,25 +178,13 @@ impl Experiment {
         &self.protocol
     }
 
-    /// The answer to a trial whose radii may be the recorded ones.
-    pub(crate) fn answer_shown(&mut self, trial: Trial, answer: Side, response_time_secs: f64) -> Result<Event, Error> {
-        require(
-            is_response_time(response_time_secs),
-            "response_time_secs",
-            response_time_secs,
-            "a finite number of seconds, at least 0",
-        )?;
-        let correct = trial.is_correct(answer);
-        let answered = Answered { trial, answer, correct, response_time_secs };
-        if let Stage::Practice(_) = self.stage {
-            self.practised += 1;
-            self.stage = Stage::Feedback { correct };
-            return Ok(Event::Practice(answered));
+    fn learn(&mut self, trial: &Trial, correct: bool) -> Result<(), Error> {
+        match (trial.role, trial.track) {
+            (Role::Measure, Some(track)) => {
+                self.timetable.track_mut(track as usize).respond(&self.protocol, trial, correct)
+            }
+            _ => Ok(()),
         }
-        self.schedule.track_mut(self.asked).respond(&self.protocol, &trial, correct)?;
-        self.answered += 1;
-        self.stage = self.next_trial();
-        Ok(Event::Trial(answered))
     }
 
     fn refuse(&self, call: &'static str, allowed: &'static str) -> Error {
@@ -184,42 +194,52 @@ impl Experiment {
     fn next_practice(&self) -> Stage {
         let practice = &self.protocol.practice;
         let Some(ratio) = practice.ratios.get(self.practised as usize) else {
-            return self.rest();
+            return self.rest(false);
         };
-        let patterns = &self.protocol.patterns;
+        let conditions = &self.protocol.conditions;
         let condition = Condition {
-            pattern: patterns[self.practised as usize % patterns.len()],
+            pattern: conditions.patterns[self.practised as usize % conditions.patterns.len()],
             contrast: practice.contrast,
+            kernel: conditions.kernels[0],
             texel_px: practice.texel_px,
         };
-        let wanted_px = ratio * practice.texel_px;
-        let (smallest_px, largest_px) = self.protocol.radius_range_px(practice.texel_px);
-        let place = self.place(Purpose::Practice, self.practised + 1, 0);
-        let shown_px = wanted_px.clamp(smallest_px, largest_px);
-        Stage::Practice(draw_trial(place, condition, wanted_px, shown_px))
+        Stage::Practice(self.draw(Role::Practice, None, condition, ratio * practice.texel_px))
+    }
+
+    fn after_answer(&mut self) -> Stage {
+        let is_rest = self.protocol.schedule.rest_every_trials == Some(self.since_rest);
+        if is_rest && self.timetable.round_is_open() { self.rest(true) } else { self.next_trial() }
     }
 
     fn next_trial(&mut self) -> Stage {
-        let number = self.answered + 1;
-        let Some(asked) = self.schedule.next_track(number) else {
-            return match self.schedule.next_round() {
-                true => self.rest(),
+        let Some((role, index)) = self.timetable.next(self.answered + 1) else {
+            return match self.timetable.next_round() {
+                true => self.rest(false),
                 false => Stage::Finished,
             };
         };
-        self.asked = asked;
-        let track = &self.tracks()[asked];
-        let (wanted_px, shown_px) = track.next_radius_px(&self.protocol);
-        let round = self.schedule.round_number();
-        let place = self.place(Purpose::Pictures, number, round);
-        Stage::Trial(draw_trial(place, *track.condition(), wanted_px, shown_px))
+        let track = &self.tracks()[index];
+        let asked = *track.condition();
+        let (track, condition, radius_px) = match (role, self.protocol.catch_trials) {
+            (Role::Catch, Some(catch)) => {
+                (None, Condition { texel_px: catch.texel_px, ..asked }, catch.ratio * catch.texel_px)
+            }
+            _ => (Some(index as u32), asked, track.next_radius_px()),
+        };
+        Stage::Trial(self.draw(role, track, condition, radius_px))
     }
 
-    fn rest(&self) -> Stage {
-        Stage::Rest { round: self.schedule.round_number(), rounds: self.schedule.rounds() as u32 }
+    fn rest(&self, within_round: bool) -> Stage {
+        let (round, rounds) = (self.timetable.round_number(), self.timetable.rounds() as u32);
+        Stage::Rest { round, rounds, within_round }
     }
 
-    fn place(&self, purpose: Purpose, number: u32, round: u32) -> Place {
-        Place { seed: self.seed, purpose, number, round }
+    fn draw(&self, role: Role, track: Option<u32>, condition: Condition, placement_radius_px: f64) -> Trial {
+        let (number, round) = match role {
+            Role::Practice => (self.practised + 1, 0),
+            _ => (self.answered + 1, self.timetable.round_number()),
+        };
+        let request = Request { seed: self.seed, number, round, role, track, condition, placement_radius_px };
+        draw_trial(&self.protocol, request)
     }
 }

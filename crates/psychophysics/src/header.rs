@@ -8,7 +8,7 @@ use crate::observer::ObserverParameters;
 use crate::protocol::Protocol;
 
 /// The format of a session directory.
-pub const SESSION_SCHEMA: &str = "scumble/session/1";
+pub const SESSION_SCHEMA: &str = "scumble/session/2";
 
 /// Longest participant code, short enough that no name with address hides in it.
 const CODE_LENGTH_MAX: usize = 16;
@@ -21,6 +21,8 @@ pub struct SessionHeader {
     pub schema: String,
     /// A code, never a name: 1 to 16 letters, digits, `-` and `_`.
     pub participant: String,
+    /// Number of the participant in the study, which a Latin square of rounds is read at.
+    pub participant_number: u32,
     /// When the session began.
     pub started_at: Timestamp,
     /// Every draw of the session follows from it.
@@ -89,11 +91,13 @@ impl Software {
 }
 
 impl SessionHeader {
-    /// A header without display and simulated person.
+    /// A header without display and simulated person. The participant's number is the one at the end
+    /// of the code, 0 where there is none.
     pub fn new(participant: &str, protocol: Protocol, seed: u64, started_at: Timestamp, software: Software) -> Self {
         Self {
             schema: SESSION_SCHEMA.into(),
             participant: participant.into(),
+            participant_number: number_at_end(participant),
             started_at,
             seed,
             protocol,
@@ -122,6 +126,12 @@ impl SessionHeader {
         }
         self.protocol.check()
     }
+}
+
+/// The number that a code ends with; 0 without one, or with one beyond 32 bits.
+fn number_at_end(code: &str) -> u32 {
+    let letters = code.trim_end_matches(|c: char| c.is_ascii_digit());
+    code[letters.len()..].parse().unwrap_or(0)
 }
 
 impl Display {

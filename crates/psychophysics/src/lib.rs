@@ -8,7 +8,7 @@
 //! | Part | Is |
 //! |---|---|
 //! | [`Quest`] | the Bayesian staircase that chooses each radius, equal to Psychtoolbox's to 1e-9 |
-//! | [`Protocol`] | every parameter of a session, with units |
+//! | [`Protocol`] | every parameter of a session, with units; three come with the crate |
 //! | [`Experiment`] | the state machine: what to show, what an answer leads to |
 //! | [`SessionWriter`], [`read_session`] | the record: one line an event, on disk before the next picture |
 //! | [`WeibullObserver`], [`Population`] | simulated people whose thresholds are known |
@@ -20,7 +20,7 @@
 //! use scumble_psychophysics::{Experiment, ObserverParameters, Protocol, WeibullObserver, rehearse};
 //!
 //! let person = WeibullObserver::new(ObserverParameters::default(), 1)?;
-//! let mut experiment = Experiment::new(Protocol::two_alternative(), 2)?;
+//! let mut experiment = Experiment::new(Protocol::two_alternative(), 2, 0)?;
 //! let events = rehearse(&mut experiment, &person)?;
 //! assert_eq!(events.len(), 8 + experiment.progress().trials as usize);
 //! assert!(experiment.tracks().iter().all(|track| track.trials() >= 10));
@@ -36,10 +36,13 @@ mod error;
 mod event;
 mod experiment;
 mod header;
+mod latin_square;
 mod observer;
 mod picture;
 mod population;
 mod protocol;
+mod protocol_check;
+mod protocol_file;
 mod psychometric;
 mod quest;
 mod quest_config;
@@ -47,19 +50,21 @@ mod read;
 mod record;
 mod rehearse;
 mod replay;
-mod schedule;
 mod summary;
+mod timetable;
 mod track;
 mod trial;
 
 pub use convergence::{Convergence, Verdict};
 pub use error::Error;
-pub use event::{Answered, Event, Moment};
+pub use event::{Answered, Event, Moment, Reply};
 pub use experiment::{Experiment, Progress, Stage};
 pub use header::{Display, Luminance, SESSION_SCHEMA, SessionHeader, Software};
 pub use observer::{ObserverParameters, WeibullObserver};
 pub use population::Population;
-pub use protocol::{Practice, Protocol, Task};
+pub use protocol::{
+    CatchTrials, Conditions, LineTrials, Order, PictureRules, Practice, Protocol, Round, Schedule, StaircaseRules, Task,
+};
 pub use psychometric::Psychometric;
 pub use quest::{Placement, Quest};
 pub use quest_config::QuestConfig;
@@ -68,4 +73,4 @@ pub use record::{EVENTS_FILE, HEADER_FILE, SessionWriter};
 pub use rehearse::rehearse;
 pub use summary::QuestSummary;
 pub use track::{Estimate, Track};
-pub use trial::{Condition, Side, Trial};
+pub use trial::{Answer, Condition, Pictures, Role, Trial};

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::draw::{Draw, Purpose};
 use crate::error::{Error, require};
 use crate::psychometric::Psychometric;
-use crate::trial::{Condition, Side, Trial};
+use crate::trial::{Answer, Condition, Pictures, Role, Trial};
 
 /// Parameters of a simulated person.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,6 +33,8 @@ pub struct ObserverParameters {
     pub lapse_probability: f64,
     /// Share of right answers at the threshold.
     pub threshold_probability: f64,
+    /// Probability that a filtered line alone is called an artifact.
+    pub false_alarm_probability: f64,
 }
 
 impl Default for ObserverParameters {
@@ -46,6 +48,7 @@ impl Default for ObserverParameters {
             slope_per_log10: 3.5,
             lapse_probability: 0.01,
             threshold_probability: 0.82,
+            false_alarm_probability: 0.1,
         }
     }
 }
@@ -61,23 +64,34 @@ impl ObserverParameters {
         for (field, value) in positive {
             require(value.is_finite() && value > 0.0, field, value, "a finite number above 0")?;
         }
+        let rate = self.false_alarm_probability;
+        require((0.0..1.0).contains(&rate), "false_alarm_probability", rate, "0 to below 1")?;
         self.psychometric().check()
     }
 
     /// The person's true threshold for a condition, in texels.
     pub fn threshold_ratio(&self, condition: &Condition) -> f64 {
         let pattern_factor = match condition.pattern {
-            Pattern::Step => 1.0,
+            Pattern::Step | Pattern::DoubleStep => 1.0,
             Pattern::Stair => self.stair_factor,
         };
-        let halvings = -condition.contrast.log2();
-        self.ratio * pattern_factor * self.half_contrast_factor.powf(halvings)
+        let halvings = -libm::log2(condition.contrast);
+        self.ratio * pattern_factor * libm::pow(self.half_contrast_factor, halvings)
     }
 
-    /// Probability that the person names the line in this trial.
+    /// Probability that the person's answer to this trial is right. A single artifact is told where it
+    /// is seen, as often as it is at two alternatives, or by a false alarm.
     pub fn probability_correct(&self, trial: &Trial) -> f64 {
-        let threshold = -self.threshold_ratio(&trial.condition).log10();
-        self.psychometric().probability(trial.intensity() - threshold)
+        let threshold = -libm::log10(self.threshold_ratio(&trial.condition));
+        let two_alternative = self.psychometric().probability(trial.intensity() - threshold);
+        match (trial.pictures, trial.pictures.right_answer()) {
+            (Pictures::Pair { .. }, _) => two_alternative,
+            (Pictures::Single { .. }, Answer::Yes) => 1.0 - self.false_alarm_probability,
+            (Pictures::Single { .. }, _) => {
+                let seen = 2.0 * two_alternative - 1.0;
+                seen + (1.0 - seen) * self.false_alarm_probability
+            }
+        }
     }
 
     fn psychometric(&self) -> Psychometric {
@@ -109,21 +123,25 @@ impl WeibullObserver {
         &self.parameters
     }
 
-    /// The side that the person names as the line; the same for the same trial.
-    pub fn answer(&self, trial: &Trial) -> Side {
-        let right = self.draw(trial).unit() < self.parameters.probability_correct(trial);
-        if right { trial.line_side } else { trial.line_side.other() }
+    /// The person's answer; the same for the same trial.
+    pub fn answer(&self, trial: &Trial) -> Answer {
+        let right = trial.pictures.right_answer();
+        if self.draw(trial).unit() < self.parameters.probability_correct(trial) {
+            return right;
+        }
+        let [first, second] = trial.pictures.answers();
+        if first == right { second } else { first }
     }
 
     /// A response time: log-normal, median 2 s, SD 0.15 log10, at random with respect to the trial.
     pub fn response_time_secs(&self, trial: &Trial) -> f64 {
         let mut draw = self.draw(trial);
         draw.unit();
-        2.0 * 10f64.powf(0.15 * draw.normal())
+        2.0 * libm::exp10(0.15 * draw.normal())
     }
 
     fn draw(&self, trial: &Trial) -> Draw {
-        let purpose = if trial.round == 0 { Purpose::PracticeAnswer } else { Purpose::Answer };
+        let purpose = if trial.role == Role::Practice { Purpose::PracticeAnswer } else { Purpose::Answer };
         Draw::new(self.seed, purpose, trial.number)
     }
 }

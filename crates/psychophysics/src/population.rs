@@ -30,7 +30,7 @@ impl Population {
         )?;
         let mut draw = Draw::new(self.seed, Purpose::Person, index);
         let deviation_log10 = self.between_sd_log10 * draw.normal();
-        let parameters = ObserverParameters { ratio: self.median.ratio * 10f64.powf(deviation_log10), ..self.median };
+        let parameters = ObserverParameters { ratio: self.median.ratio * libm::exp10(deviation_log10), ..self.median };
         WeibullObserver::new(parameters, draw.bits32().into())
     }
 

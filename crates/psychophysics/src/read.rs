@@ -117,17 +117,18 @@ impl<'a> LineReader<'a> {
         if let Some(Event::End(_)) = self.events.last() {
             return Err(self.damaged("an event after the end", "nothing"));
         }
-        let (answered, count) = match &event {
-            Event::Trial(answered) => (Some(answered), &mut self.answered),
-            Event::Practice(answered) => (Some(answered), &mut self.practised),
-            _ => (None, &mut self.answered),
-        };
-        if let Some(answered) = answered {
+        let is_practice = matches!(event, Event::Practice(_));
+        let count = if is_practice { &mut self.practised } else { &mut self.answered };
+        if let Some(answered) = event.answered() {
             *count += 1;
             let expected = *count;
             if answered.trial.number != expected {
                 let found = format!("trial number {}", answered.trial.number);
                 return Err(self.damaged(found, format!("{expected}")));
+            }
+            if Event::of(answered.clone()) != event {
+                let found = format!("a trial of role {:?} under another event", answered.trial.role);
+                return Err(self.damaged(found, "the event of its role"));
             }
             if let Some(found) = answered.contradiction() {
                 return Err(self.damaged(found, "an answer that agrees with its trial"));

@@ -1,7 +1,7 @@
 //! A simulated person goes through what is left of a session.
 
 use crate::error::Error;
-use crate::event::Event;
+use crate::event::{Event, Reply};
 use crate::experiment::{Experiment, Stage};
 use crate::observer::WeibullObserver;
 
@@ -11,9 +11,12 @@ pub fn rehearse(experiment: &mut Experiment, observer: &WeibullObserver) -> Resu
     while *experiment.stage() != Stage::Finished {
         match experiment.stage().trial().copied() {
             Some(trial) => {
-                let side = observer.answer(&trial);
-                let response_time_secs = observer.response_time_secs(&trial);
-                events.push(experiment.answer(side, response_time_secs)?);
+                let reply = Reply {
+                    answer: observer.answer(&trial),
+                    response_time_secs: observer.response_time_secs(&trial),
+                    pictures_sha256: Vec::new(),
+                };
+                events.push(experiment.answer(reply)?);
             }
             None => experiment.proceed()?,
         }

@@ -1,4 +1,4 @@
-//! One QUEST of a session: its condition, its responses and its state.
+//! One staircase of a session: its condition, its responses and its state.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::protocol::Protocol;
 use crate::quest::Quest;
 use crate::trial::{Condition, Trial};
 
-/// One QUEST among the session's.
+/// One staircase among the session's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     condition: Condition,
@@ -32,18 +32,15 @@ pub struct Estimate {
 
 impl Track {
     /// A QUEST at its prior.
-    pub(crate) fn new(protocol: &Protocol, condition: Condition) -> Result<Self, Error> {
-        let prior = Quest::new(protocol.quest_config())?;
+    pub(crate) fn new(protocol: &Protocol, condition: Condition, prior_ratio: f64) -> Result<Self, Error> {
+        let prior = Quest::new(protocol.quest_config(prior_ratio))?;
         let verdict = protocol.convergence.judge(&prior, &prior, &[], intensity_range(protocol, &condition))?;
         Ok(Self { condition, quest: prior.clone(), prior, responses: Vec::new(), verdict, done: false })
     }
 
-    /// Radius that QUEST asks for, and that radius clamped to what the picture can show.
-    pub(crate) fn next_radius_px(&self, protocol: &Protocol) -> (f64, f64) {
-        let texel_px = self.condition.texel_px;
-        let placement_px = texel_px * 10f64.powf(-self.quest.placement());
-        let (smallest_px, largest_px) = protocol.radius_range_px(texel_px);
-        (placement_px, placement_px.clamp(smallest_px, largest_px))
+    /// Radius that the staircase asks for.
+    pub(crate) fn next_radius_px(&self) -> f64 {
+        self.condition.texel_px * libm::exp10(-self.quest.placement())
     }
 
     /// Takes a response to `trial`, at the radius that was shown.
@@ -53,7 +50,7 @@ impl Track {
         let range = intensity_range(protocol, &self.condition);
         self.verdict = protocol.convergence.judge(&self.prior, &self.quest, &self.responses, range)?;
         let trials = self.trials();
-        self.done = trials >= protocol.trials_max || (trials >= protocol.trials_min && self.verdict.is_converged());
+        self.done = trials >= protocol.schedule.trials_max || (trials >= protocol.schedule.trials_min && self.verdict.is_converged());
         Ok(())
     }
 
@@ -89,7 +86,7 @@ impl Track {
 
     /// Its threshold as a ratio.
     pub fn estimate(&self) -> Estimate {
-        let ratio = |intensity: f64| 10f64.powf(-intensity);
+        let ratio = |intensity: f64| libm::exp10(-intensity);
         Estimate {
             ratio: ratio(self.quest.mean()),
             ratio_interval90: (ratio(self.quest.quantile(0.95)), ratio(self.quest.quantile(0.05))),
@@ -101,5 +98,5 @@ impl Track {
 /// Intensities of the largest and the smallest radius that can be shown.
 fn intensity_range(protocol: &Protocol, condition: &Condition) -> (f64, f64) {
     let (smallest_px, largest_px) = protocol.radius_range_px(condition.texel_px);
-    ((condition.texel_px / largest_px).log10(), (condition.texel_px / smallest_px).log10())
+    (libm::log10(condition.texel_px / largest_px), libm::log10(condition.texel_px / smallest_px))
 }

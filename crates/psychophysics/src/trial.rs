@@ -1,45 +1,70 @@
-//! One trial of the two-alternative task: two pictures of the same filtered edge, one of them made
-//! from the straight edge, and the question "which one was the line?".
+//! One trial: what is shown, why, and what an answer to it means.
 
-use scumble_stimuli::{Pattern, Shape, Stimulus};
+use scumble_stimuli::{Kernel, Pattern, Shape, Stimulus};
 use serde::{Deserialize, Serialize};
 
-/// Which of the two pictures.
+/// An answer to the question of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Side {
-    /// The left picture.
+pub enum Answer {
+    /// "Which one was the line?" The left picture.
     Left,
     /// The right picture.
     Right,
+    /// "Was the original image a line?" Yes.
+    Yes,
+    /// No.
+    No,
 }
 
-impl Side {
-    /// The other picture.
-    pub fn other(self) -> Self {
-        match self {
-            Self::Left => Self::Right,
-            Self::Right => Self::Left,
-        }
-    }
-}
-
-/// What one QUEST measures: a pattern, its contrast and its texel size.
+/// What one staircase measures.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Condition {
     /// How the silhouette lies on the texels.
     pub pattern: Pattern,
-    /// Linear light of the lit side, above 0 to 1.
+    /// Lit side relative to the brightest, in the protocol's encoding, above 0 to 1.
     pub contrast: f64,
+    /// The filter.
+    pub kernel: Kernel,
     /// Side of a texel on the screen.
     pub texel_px: f64,
 }
 
+/// Why a trial is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// With feedback, before the measurement.
+    Practice,
+    /// A staircase learns from the answer.
+    Measure,
+    /// The filtered line alone, at a radius that a staircase would choose: "no" is a false alarm.
+    Line,
+    /// An artifact that everyone sees who looks.
+    Catch,
+}
+
+/// The pictures of a trial.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Pictures {
+    /// The same edge twice, one of them filtered from the straight edge. They differ in shape,
+    /// dithering and tilt alone, so that nothing but the artifact tells.
+    Pair {
+        /// The left picture.
+        left: Stimulus,
+        /// The right picture.
+        right: Stimulus,
+    },
+    /// One picture.
+    Single {
+        /// The picture.
+        picture: Stimulus,
+    },
+}
+
 /// One trial, image for image.
-///
-/// `left` and `right` differ in their shape and their dithering alone: pattern, texel, radius,
-/// contrast, phase, mirroring and polarity are the same, so that nothing but the artifact tells.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Trial {
@@ -47,18 +72,46 @@ pub struct Trial {
     pub number: u32,
     /// From 1; 0 for practice.
     pub round: u32,
+    /// Why it is shown.
+    pub role: Role,
+    /// The staircase that chose the radius, its index in the order of the session.
+    pub track: Option<u32>,
     /// What is measured.
     pub condition: Condition,
-    /// The radius that QUEST asked for.
+    /// The radius asked for.
     pub placement_radius_px: f64,
     /// The radius that is shown: the placement, clamped to what the picture can hold.
     pub radius_px: f64,
-    /// The left picture.
-    pub left: Stimulus,
-    /// The right picture.
-    pub right: Stimulus,
-    /// The side that shows the filtered line.
-    pub line_side: Side,
+    /// The pictures.
+    pub pictures: Pictures,
+}
+
+impl Pictures {
+    /// The pictures from left to right.
+    pub fn all(&self) -> Vec<&Stimulus> {
+        match self {
+            Self::Pair { left, right } => vec![left, right],
+            Self::Single { picture } => vec![picture],
+        }
+    }
+
+    /// The answers that the question over these pictures allows.
+    pub fn answers(&self) -> [Answer; 2] {
+        match self {
+            Self::Pair { .. } => [Answer::Left, Answer::Right],
+            Self::Single { .. } => [Answer::Yes, Answer::No],
+        }
+    }
+
+    /// The right one of them.
+    pub fn right_answer(&self) -> Answer {
+        match self {
+            Self::Pair { left: Stimulus { shape: Shape::Line, .. }, .. } => Answer::Left,
+            Self::Pair { .. } => Answer::Right,
+            Self::Single { picture: Stimulus { shape: Shape::Line, .. } } => Answer::Yes,
+            Self::Single { .. } => Answer::No,
+        }
+    }
 }
 
 impl Trial {
@@ -67,44 +120,63 @@ impl Trial {
         self.radius_px / self.condition.texel_px
     }
 
-    /// QUEST's intensity as shown: `x = log10(texel / radius)`, the larger the easier.
+    /// The staircase's intensity as shown: `x = log10(texel / radius)`, the larger the easier.
     pub fn intensity(&self) -> f64 {
-        (self.condition.texel_px / self.radius_px).log10()
+        libm::log10(self.condition.texel_px / self.radius_px)
     }
 
-    /// Whether the picture could not hold the radius that QUEST asked for.
+    /// Whether the picture could not hold the radius asked for.
     pub fn is_clamped(&self) -> bool {
         self.radius_px != self.placement_radius_px
     }
 
-    /// Whether `answer` names the filtered line.
-    pub fn is_correct(&self, answer: Side) -> bool {
-        answer == self.line_side
+    /// Whether `answer` is the right one. A staircase's response of 1 is a right answer: the line
+    /// was found, or the single artifact was not taken for one.
+    pub fn is_correct(&self, answer: Answer) -> bool {
+        answer == self.pictures.right_answer()
     }
 
     /// What contradicts itself in a trial read from a file, in words.
     pub(crate) fn contradiction(&self) -> Option<String> {
-        let (line, artifact) = match self.line_side {
-            Side::Left => (self.left, self.right),
-            Side::Right => (self.right, self.left),
+        let shapes: Vec<Shape> = self.pictures.all().iter().map(|picture| picture.shape).collect();
+        let good_shapes = match (self.role, shapes.as_slice()) {
+            (_, [left, right]) => left != right && self.role != Role::Line,
+            (Role::Line, [shape]) => *shape == Shape::Line,
+            (Role::Practice, _) => true,
+            (_, shapes) => shapes == [Shape::Artifact],
         };
-        if line.shape != Shape::Line || artifact.shape != Shape::Artifact {
-            return Some("line_side that is not the side of the line".into());
+        if !good_shapes {
+            return Some(format!("a trial of role {:?} with pictures of {shapes:?}", self.role));
         }
-        let twin = Stimulus { shape: Shape::Line, dither_seed: line.dither_seed, ..artifact };
-        if twin != line {
-            return Some("two pictures that differ in more than shape and dithering".into());
+        if (self.role == Role::Practice) != (self.round == 0) {
+            return Some(format!("a trial of role {:?} in round {}", self.role, self.round));
         }
-        if line.radius_px != self.radius_px
-            || line.texel_px != self.condition.texel_px
-            || line.contrast != self.condition.contrast
-            || line.pattern != self.condition.pattern
-        {
-            return Some("pictures that do not show the condition and the radius".into());
+        if matches!(self.role, Role::Measure | Role::Line) != self.track.is_some() {
+            return Some(format!("a trial of role {:?} with track {:?}", self.role, self.track));
         }
         if !(self.radius_px > 0.0 && self.condition.texel_px > 0.0) {
             return Some(format!("radius_px {}", self.radius_px));
         }
-        line.check().err().map(|error| error.to_string())
+        self.pictures.all().into_iter().find_map(|picture| self.contradiction_of(picture))
+    }
+
+    fn contradiction_of(&self, picture: &Stimulus) -> Option<String> {
+        let Condition { pattern, contrast, kernel, texel_px } = self.condition;
+        let first = self.pictures.all()[0];
+        let expected = Stimulus {
+            pattern,
+            contrast,
+            kernel,
+            texel_px,
+            radius_px: self.radius_px,
+            shape: picture.shape,
+            dither_seed: picture.dither_seed,
+            tilt_rad: picture.tilt_rad,
+            ..*first
+        };
+        if *picture != expected {
+            return Some("pictures that differ from the trial or in more than shape, dithering and tilt".into());
+        }
+        picture.check().err().map(|error| error.to_string())
     }
 }

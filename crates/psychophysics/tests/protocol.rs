@@ -13,7 +13,7 @@ fn a_protocol_survives_its_file() {
 fn a_name_on_the_command_line_gives_its_protocol_and_another_one_the_list() {
     assert_eq!(Protocol::named("two-alternative").unwrap(), Protocol::two_alternative());
     let error = Protocol::named("three-alternative").unwrap_err();
-    assert_eq!(error.to_string(), "protocol is three-alternative; allowed is two-alternative");
+    assert_eq!(error.to_string(), "protocol is three-alternative; allowed is published, two-alternative, yes-no, or a file that ends in .toml");
 }
 
 #[test]
@@ -26,7 +26,7 @@ fn a_misspelt_key_is_refused_by_name() {
 
 #[test]
 fn quests_prior_is_three_texels_and_its_intensity_the_negative_logarithm_of_the_ratio() {
-    let config = Protocol::two_alternative().quest_config();
+    let config = Protocol::two_alternative().quest_config(3.0);
     assert!((config.t_guess + 3f64.log10()).abs() < 1e-15);
     assert_eq!(config.t_guess_sd, 0.6);
 }
@@ -35,24 +35,24 @@ fn quests_prior_is_three_texels_and_its_intensity_the_negative_logarithm_of_the_
 fn every_parameter_out_of_range_is_refused_by_name_before_a_session_starts() {
     type Break = fn(&mut Protocol);
     let broken: [(&str, Break); 20] = [
-        ("patterns", |p| p.patterns.clear()),
-        ("contrasts", |p| p.contrasts.clear()),
-        ("texels_px", |p| p.texels_px.clear()),
-        ("contrast", |p| p.contrasts[0] = 0.0),
-        ("contrast", |p| p.contrasts[0] = 1.5),
-        ("contrast", |p| p.practice.contrast = f64::NAN),
+        ("conditions.patterns", |p| p.conditions.patterns.clear()),
+        ("conditions.contrasts", |p| p.conditions.contrasts.clear()),
+        ("conditions.texels_px", |p| p.conditions.texels_px.clear()),
+        ("conditions.contrasts", |p| p.conditions.contrasts[0] = 0.0),
+        ("conditions.contrasts", |p| p.conditions.contrasts[0] = 1.5),
+        ("practice.contrast", |p| p.practice.contrast = f64::NAN),
         ("practice.ratios", |p| p.practice.ratios[0] = -1.0),
-        ("texel_px", |p| p.texels_px[0] = f64::NAN),
-        ("texel_px", |p| p.texels_px[0] = 240.0),
-        ("texel_px", |p| p.practice.texel_px = 0.0),
-        ("picture_width_px", |p| p.picture_width_px = 0),
-        ("picture_height_px", |p| p.picture_height_px = 100_000),
-        ("ratio_min", |p| p.ratio_min = 0.0),
-        ("trials_min to trials_max", |p| p.trials_min = 0),
-        ("trials_min to trials_max", |p| p.trials_max = 9),
-        ("prior_ratio", |p| p.prior_ratio = -3.0),
-        ("tGuessSd", |p| p.prior_sd_log10 = 0.0),
-        ("threshold probability", |p| p.threshold_probability = 0.4),
+        ("conditions.texels_px", |p| p.conditions.texels_px[0] = f64::NAN),
+        ("conditions.texels_px", |p| p.conditions.texels_px[0] = 240.0),
+        ("practice.texel_px", |p| p.practice.texel_px = 0.0),
+        ("pictures.width_px", |p| p.pictures.width_px = 0),
+        ("pictures.height_px", |p| p.pictures.height_px = 100_000),
+        ("pictures.ratio_min", |p| p.pictures.ratio_min = 0.0),
+        ("schedule.trials_min", |p| p.schedule.trials_min = 0),
+        ("schedule.trials_max", |p| p.schedule.trials_max = 9),
+        ("staircase.prior_ratios", |p| p.staircase.prior_ratios[0] = -3.0),
+        ("tGuessSd", |p| p.staircase.prior_sd_log10 = 0.0),
+        ("threshold probability", |p| p.staircase.threshold_probability = 0.4),
         ("convergence.interval_width_log10", |p| {
             p.convergence.interval_width_log10 = 0.0;
         }),
@@ -63,7 +63,7 @@ fn every_parameter_out_of_range_is_refused_by_name_before_a_session_starts() {
     for (name, break_it) in broken {
         let mut protocol = Protocol::two_alternative();
         break_it(&mut protocol);
-        let message = Experiment::new(protocol, 1).unwrap_err().to_string();
+        let message = Experiment::new(protocol, 1, 0).unwrap_err().to_string();
         assert!(message.starts_with(&format!("{name} is")), "{name}: {message}");
     }
 }

@@ -3,18 +3,22 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 use scumble_psychophysics::{
-    Error, Event, Experiment, ObserverParameters, Protocol, Quest, Side, Stage, Trial, WeibullObserver, rehearse,
+    Answer, Error, Event, Experiment, ObserverParameters, Protocol, Pictures, Quest, Reply, Stage, Trial, WeibullObserver, rehearse,
 };
-use scumble_stimuli::{Pattern, Shape, Stimulus};
+use scumble_stimuli::{Pattern, Shape, Stimulus, Transfer};
 
 fn observer(seed: u64) -> WeibullObserver {
     WeibullObserver::new(ObserverParameters::default(), seed).unwrap()
 }
 
 fn session(seed: u64) -> (Experiment, Vec<Event>) {
-    let mut experiment = Experiment::new(Protocol::two_alternative(), seed).unwrap();
+    let mut experiment = Experiment::new(Protocol::two_alternative(), seed, 0).unwrap();
     let events = rehearse(&mut experiment, &observer(seed)).unwrap();
     (experiment, events)
+}
+
+fn reply(answer: Answer, response_time_secs: f64) -> Reply {
+    Reply { answer, response_time_secs, pictures_sha256: Vec::new() }
 }
 
 fn measured(events: &[Event]) -> Vec<Trial> {
@@ -23,10 +27,10 @@ fn measured(events: &[Event]) -> Vec<Trial> {
 }
 
 fn at_first_trial(protocol: Protocol) -> Experiment {
-    let mut experiment = Experiment::new(protocol, 1).unwrap();
+    let mut experiment = Experiment::new(protocol, 1, 0).unwrap();
     while !matches!(experiment.stage(), Stage::Trial(_)) {
         match experiment.stage() {
-            Stage::Practice(_) => drop(experiment.answer(Side::Left, 1.0).unwrap()),
+            Stage::Practice(_) => drop(experiment.answer(reply(Answer::Left, 1.0)).unwrap()),
             _ => experiment.proceed().unwrap(),
         }
     }
@@ -38,23 +42,24 @@ fn the_same_seed_gives_the_same_session_image_for_image() {
     let (first, second) = (session(7).1, session(7).1);
     assert_eq!(first, second);
     for (a, b) in measured(&first).iter().zip(&measured(&second)).take(6) {
-        let pixels = |stimulus: &Stimulus| stimulus.render(96, 72).unwrap().into_raw();
-        assert_eq!(pixels(&a.left), pixels(&b.left));
-        assert_eq!(pixels(&a.right), pixels(&b.right));
+        let pixels = |stimulus: &Stimulus| stimulus.render(96, 72, &Transfer::srgb()).unwrap().into_raw();
+        for (a, b) in a.pictures.all().into_iter().zip(b.pictures.all()) {
+            assert_eq!(pixels(a), pixels(b));
+        }
     }
 }
 
 #[test]
 fn another_seed_gives_another_session() {
     let (a, b) = (measured(&session(1).1), measured(&session(2).1));
-    assert!(a.iter().zip(&b).all(|(a, b)| a.left.phase != b.left.phase));
+    assert!(a.iter().zip(&b).all(|(a, b)| a.pictures.all()[0].phase != b.pictures.all()[0].phase));
 }
 
 #[test]
 fn a_session_has_four_rounds_of_three_sizes_and_each_size_ten_to_twenty_eight_trials() {
     let (experiment, events) = session(3);
     assert_eq!(experiment.tracks().len(), 12);
-    let conditions = experiment.protocol().conditions();
+    let conditions = experiment.protocol().all_conditions();
     for track in experiment.tracks() {
         assert!(conditions.contains(track.condition()));
         assert!((10..=28).contains(&track.trials()) && track.is_done());
@@ -73,7 +78,7 @@ fn a_session_has_four_rounds_of_three_sizes_and_each_size_ten_to_twenty_eight_tr
 fn every_round_comes_first_in_some_session() {
     let mut first_rounds: Vec<String> = (0..40)
         .map(|seed| {
-            let experiment = Experiment::new(Protocol::two_alternative(), seed).unwrap();
+            let experiment = Experiment::new(Protocol::two_alternative(), seed, 0).unwrap();
             let condition = experiment.tracks()[0].condition();
             format!("{:?} {}", condition.pattern, condition.contrast)
         })
@@ -98,16 +103,14 @@ fn the_sizes_of_a_round_never_run_apart_by_more_than_one_trial() {
 }
 
 #[test]
-fn the_two_pictures_differ_in_shape_and_dithering_alone() {
+fn the_two_pictures_differ_in_shape_dithering_and_tilt_alone() {
     let (_, events) = session(4);
     for trial in measured(&events) {
-        let (line, artifact) = match trial.line_side {
-            Side::Left => (trial.left, trial.right),
-            Side::Right => (trial.right, trial.left),
-        };
+        let Pictures::Pair { left, right } = trial.pictures else { panic!("{:?}", trial.pictures) };
+        let (line, artifact) = if trial.is_correct(Answer::Left) { (left, right) } else { (right, left) };
         assert_eq!((line.shape, artifact.shape), (Shape::Line, Shape::Artifact));
         assert_ne!(line.dither_seed, artifact.dither_seed);
-        let twin = Stimulus { shape: Shape::Line, dither_seed: line.dither_seed, ..artifact };
+        let twin = Stimulus { shape: Shape::Line, dither_seed: line.dither_seed, tilt_rad: line.tilt_rad, ..artifact };
         assert_eq!(line, twin);
         assert_eq!(line.radius_px, trial.radius_px);
     }
@@ -120,15 +123,15 @@ fn side_mirroring_and_polarity_are_fair_coins_and_phase_is_uniform() {
     let share = |of: fn(&Trial) -> bool| trials.iter().filter(|t| of(t)).count() as f64 / count;
     // Four standard errors of a share.
     let slack = 4.0 * (0.25 / count).sqrt();
-    let left = |trial: &Trial| trial.line_side == Side::Left;
+    let left = |trial: &Trial| trial.is_correct(Answer::Left);
     let shares = [
         share(left),
-        share(|trial| trial.left.mirrored),
-        share(|trial| trial.left.inverted),
-        share(|trial| trial.left.phase < 0.5),
-        share(|trial| (trial.line_side == Side::Left) == trial.left.mirrored),
-        share(|trial| (trial.line_side == Side::Left) == trial.left.inverted),
-        share(|trial| (trial.line_side == Side::Left) == (trial.left.phase < 0.5)),
+        share(|trial| trial.pictures.all()[0].mirrored),
+        share(|trial| trial.pictures.all()[0].inverted),
+        share(|trial| trial.pictures.all()[0].phase < 0.5),
+        share(|trial| trial.is_correct(Answer::Left) == trial.pictures.all()[0].mirrored),
+        share(|trial| trial.is_correct(Answer::Left) == trial.pictures.all()[0].inverted),
+        share(|trial| trial.is_correct(Answer::Left) == (trial.pictures.all()[0].phase < 0.5)),
     ];
     assert!(shares.iter().all(|s| (s - 0.5).abs() < slack), "{shares:?}");
 }
@@ -136,22 +139,22 @@ fn side_mirroring_and_polarity_are_fair_coins_and_phase_is_uniform() {
 #[test]
 fn practice_gives_feedback_and_teaches_no_quest() {
     let protocol = Protocol::two_alternative();
-    let mut experiment = Experiment::new(protocol.clone(), 9).unwrap();
+    let mut experiment = Experiment::new(protocol.clone(), 9, 0).unwrap();
     experiment.proceed().unwrap();
     for (number, ratio) in (1..).zip(&protocol.practice.ratios) {
         let Stage::Practice(trial) = *experiment.stage() else { panic!("{}", experiment.stage().name()) };
         assert_eq!((trial.number, trial.round), (number, 0));
         assert!((trial.ratio() - ratio).abs() < 1e-12);
-        let side = [Side::Left, Side::Right][number as usize % 2];
-        let event = experiment.answer(side, 0.5).unwrap();
-        let correct = side == trial.line_side;
+        let side = [Answer::Left, Answer::Right][number as usize % 2];
+        let event = experiment.answer(reply(side, 0.5)).unwrap();
+        let correct = trial.is_correct(side);
         assert!(matches!(event, Event::Practice(answered) if answered.correct == correct));
         assert_eq!(*experiment.stage(), Stage::Feedback { correct });
         experiment.proceed().unwrap();
     }
-    let first_rest = Stage::Rest { round: 1, rounds: 4 };
+    let first_rest = Stage::Rest { round: 1, rounds: 4, within_round: false };
     assert_eq!(*experiment.stage(), first_rest);
-    let prior = Quest::new(protocol.quest_config()).unwrap();
+    let prior = Quest::new(protocol.quest_config(3.0)).unwrap();
     assert!(experiment.tracks().iter().all(|track| *track.quest() == prior));
 }
 
@@ -168,9 +171,9 @@ fn a_rest_stands_before_every_round() {
                 assert_eq!(progress.trials + 1, trial.number);
                 assert!(progress.trials < progress.trials_at_least);
                 assert!(progress.trials_at_least <= progress.trials_at_most);
-                experiment.answer(person.answer(&trial), 1.0).unwrap();
+                experiment.answer(reply(person.answer(&trial), 1.0)).unwrap();
             }
-            Stage::Rest { round, rounds } => {
+            Stage::Rest { round, rounds, .. } => {
                 rests.push((round, rounds));
                 experiment.proceed().unwrap();
             }
@@ -187,8 +190,8 @@ fn a_rest_stands_before_every_round() {
 fn quest_learns_from_the_radius_shown_where_the_picture_cannot_hold_the_one_asked_for() {
     let mut protocol = Protocol::two_alternative();
     // Radii up to 60 - 20 px: the threshold of 69 px at the largest texel cannot be shown.
-    protocol.picture_height_px = 120;
-    let mut experiment = Experiment::new(protocol.clone(), 3).unwrap();
+    protocol.pictures.height_px = 120;
+    let mut experiment = Experiment::new(protocol.clone(), 3, 0).unwrap();
     let events = rehearse(&mut experiment, &observer(3)).unwrap();
     let trials = measured(&events);
     let clamped: Vec<_> = trials.iter().filter(|trial| trial.is_clamped()).collect();
@@ -198,10 +201,10 @@ fn quest_learns_from_the_radius_shown_where_the_picture_cannot_hold_the_one_aske
         assert!(trial.radius_px == smallest_px || trial.radius_px == largest_px);
     }
     for track in experiment.tracks() {
-        let mut quest = Quest::new(protocol.quest_config()).unwrap();
+        let mut quest = Quest::new(protocol.quest_config(3.0)).unwrap();
         let of_track = events.iter().filter_map(Event::measured);
         for answered in of_track.filter(|a| a.trial.condition == *track.condition()) {
-            let shown = (answered.trial.condition.texel_px / answered.trial.radius_px).log10();
+            let shown = answered.trial.intensity();
             quest.update(shown, answered.correct).unwrap();
         }
         assert_eq!(quest, *track.quest());
@@ -217,15 +220,15 @@ fn quest_learns_from_the_radius_shown_where_the_picture_cannot_hold_the_one_aske
 
 #[test]
 fn calls_that_the_stage_does_not_take_are_refused_and_change_nothing() {
-    let mut experiment = Experiment::new(Protocol::two_alternative(), 1).unwrap();
-    let error = experiment.answer(Side::Left, 1.0).unwrap_err();
+    let mut experiment = Experiment::new(Protocol::two_alternative(), 1, 0).unwrap();
+    let error = experiment.answer(reply(Answer::Left, 1.0)).unwrap_err();
     assert!(error.to_string().contains("answer at the stage instructions"));
 
     let mut experiment = at_first_trial(Protocol::two_alternative());
     let before = experiment.clone();
     assert!(matches!(experiment.proceed(), Err(Error::Stage { .. })));
     for secs in [-0.1, f64::NAN, f64::INFINITY] {
-        let error = experiment.answer(Side::Left, secs).unwrap_err();
+        let error = experiment.answer(reply(Answer::Left, secs)).unwrap_err();
         assert!(error.to_string().starts_with("response_time_secs is"));
     }
     assert_eq!(experiment, before);
@@ -235,7 +238,7 @@ fn calls_that_the_stage_does_not_take_are_refused_and_change_nothing() {
 fn a_protocol_without_practice_starts_with_the_first_rest() {
     let mut protocol = Protocol::two_alternative();
     protocol.practice.ratios.clear();
-    let mut experiment = Experiment::new(protocol, 1).unwrap();
+    let mut experiment = Experiment::new(protocol, 1, 0).unwrap();
     experiment.proceed().unwrap();
     assert!(matches!(experiment.stage(), Stage::Rest { round: 1, .. }));
 }

@@ -3,10 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 use scumble_psychophysics::{
-    Condition, Convergence, Experiment, ObserverParameters, Population, Protocol, Quest, Side, Stage, Track,
+    Answer, Condition, Convergence, Experiment, ObserverParameters, Population, Protocol, Quest, Reply, Stage, Track,
     WeibullObserver, rehearse,
 };
-use scumble_stimuli::Pattern;
+use scumble_stimuli::{Kernel, Pattern};
 
 fn population() -> Population {
     Population { median: ObserverParameters::default(), between_sd_log10: 0.1, seed: 77 }
@@ -19,7 +19,7 @@ fn errors_log10(protocol: &Protocol, people: u32) -> Vec<f64> {
         .flat_map(|index| {
             let person = population.person(index).unwrap();
             let seed = population.session_seed(index);
-            let mut experiment = Experiment::new(protocol.clone(), seed).unwrap();
+            let mut experiment = Experiment::new(protocol.clone(), seed, 0).unwrap();
             rehearse(&mut experiment, &person).unwrap();
             let error = |track: &Track| {
                 let truth = person.parameters().threshold_ratio(track.condition());
@@ -42,8 +42,8 @@ fn moments(values: &[f64]) -> (f64, f64, f64) {
 #[test]
 fn forty_trials_a_quest_find_the_threshold_without_bias_within_monte_carlo_error() {
     let mut protocol = Protocol::two_alternative();
-    protocol.trials_min = 40;
-    protocol.trials_max = 40;
+    protocol.schedule.trials_min = 40;
+    protocol.schedule.trials_max = 40;
     let (mean, sd, standard_error) = moments(&errors_log10(&protocol, 100));
     assert!(mean.abs() < 3.0 * standard_error, "{mean} +- {standard_error}");
     assert!((0.04..0.07).contains(&sd), "{sd}");
@@ -62,7 +62,7 @@ fn the_default_protocol_finds_the_threshold_within_one_and_a_half_percent_on_ave
 fn a_person_is_right_as_often_as_the_psychometric_function_says() {
     let mut protocol = Protocol::two_alternative();
     protocol.practice.ratios.clear();
-    let mut experiment = Experiment::new(protocol, 1).unwrap();
+    let mut experiment = Experiment::new(protocol, 1, 0).unwrap();
     while !matches!(experiment.stage(), Stage::Trial(_)) {
         experiment.proceed().unwrap();
     }
@@ -84,7 +84,7 @@ fn a_person_is_right_as_often_as_the_psychometric_function_says() {
 
 #[test]
 fn thresholds_of_the_conditions_are_the_published_ones() {
-    let condition = |pattern, contrast, texel_px| Condition { pattern, contrast, texel_px };
+    let condition = |pattern, contrast, texel_px| Condition { pattern, contrast, texel_px, kernel: Kernel::Disc };
     let person = ObserverParameters::default();
     let ratio = |c| person.threshold_ratio(&c);
     assert!((ratio(condition(Pattern::Step, 1.0, 5.0)) - 3.47).abs() < 1e-12);
@@ -131,10 +131,10 @@ fn parameters_of_a_person_out_of_range_are_refused_by_name() {
 fn a_prior_two_log_units_off_is_not_called_converged_where_its_spread_alone_says_so() {
     // Kreuzer 2017's prior read literally: 3 % of the texel, with a coefficient of variation of 1.
     let mut literal = Protocol::two_alternative();
-    literal.prior_ratio = 0.03;
-    literal.prior_sd_log10 = 0.36;
-    literal.ratio_min = 0.003;
-    literal.texels_px = vec![10.0];
+    literal.staircase.prior_ratios[0] = 0.03;
+    literal.staircase.prior_sd_log10 = 0.36;
+    literal.pictures.ratio_min = 0.003;
+    literal.conditions.texels_px = vec![10.0];
     literal.convergence.interval_width_log10 = 0.5;
     let mut spread_alone = literal.clone();
     spread_alone.convergence = Convergence {
@@ -147,7 +147,7 @@ fn a_prior_two_log_units_off_is_not_called_converged_where_its_spread_alone_says
         let mut count = 0;
         for seed in 0..25 {
             let person = WeibullObserver::new(ObserverParameters::default(), seed).unwrap();
-            let mut experiment = Experiment::new(protocol.clone(), seed).unwrap();
+            let mut experiment = Experiment::new(protocol.clone(), seed, 0).unwrap();
             rehearse(&mut experiment, &person).unwrap();
             for track in experiment.tracks() {
                 let truth = person.parameters().threshold_ratio(track.condition());
@@ -166,13 +166,14 @@ fn a_prior_two_log_units_off_is_not_called_converged_where_its_spread_alone_says
 
 #[test]
 fn someone_who_guesses_is_hardly_ever_called_converged() {
+    let guess = Reply { answer: Answer::Left, response_time_secs: 0.3, pictures_sha256: Vec::new() };
     let mut converged = 0;
     for seed in 0..30 {
-        let mut experiment = Experiment::new(Protocol::two_alternative(), seed).unwrap();
+        let mut experiment = Experiment::new(Protocol::two_alternative(), seed, 0).unwrap();
         while *experiment.stage() != Stage::Finished {
             match experiment.stage().trial() {
                 // The side of the line is random, so a constant answer is a guess.
-                Some(_) => drop(experiment.answer(Side::Left, 0.3).unwrap()),
+                Some(_) => drop(experiment.answer(guess.clone()).unwrap()),
                 None => experiment.proceed().unwrap(),
             }
         }
@@ -187,7 +188,7 @@ fn someone_who_guesses_is_hardly_ever_called_converged() {
 fn each_part_of_the_convergence_rule_can_fail_alone() {
     let protocol = Protocol::two_alternative();
     let rule = protocol.convergence;
-    let prior = Quest::new(protocol.quest_config()).unwrap();
+    let prior = Quest::new(protocol.quest_config(3.0)).unwrap();
     let judge = |responses: &[(f64, bool)], range: (f64, f64)| {
         let mut quest = prior.clone();
         for (intensity, correct) in responses {
