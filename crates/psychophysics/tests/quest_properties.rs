@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use scumble_psychophysics::{Error, Placement, Protocol, Quest, QuestConfig};
 
 fn config() -> QuestConfig {
-    Protocol::two_alternative().quest_config()
+    Protocol::two_alternative().quest_config(3.0)
 }
 
 fn prior() -> Quest {
