@@ -27,11 +27,12 @@ pub(crate) const SIZES: [RGBColor; 6] = [
     RGBColor(86, 180, 233),
 ];
 
-/// Vermilion for the step, blue for the stair.
+/// Vermilion for the step, blue for the stair, green for the double step.
 pub(crate) fn pattern_color(pattern: Pattern) -> RGBColor {
     match pattern {
         Pattern::Stair => RGBColor(0, 114, 178),
         Pattern::Step => RGBColor(213, 94, 0),
+        Pattern::DoubleStep => RGBColor(0, 158, 115),
     }
 }
 

@@ -100,6 +100,7 @@ fn draw_panel(
         let aside_px = match series.pattern {
             Pattern::Stair => -spread_px,
             Pattern::Step => spread_px,
+            Pattern::DoubleStep => 0.0,
         };
         for (index, person) in series.people.iter().enumerate() {
             let shift = aside_px + spread_px * (2.0 * (index as f64 + 0.5) / people - 1.0);

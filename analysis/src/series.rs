@@ -134,6 +134,7 @@ pub(crate) fn pattern_name(pattern: Pattern) -> &'static str {
     match pattern {
         Pattern::Stair => "stair",
         Pattern::Step => "step",
+        Pattern::DoubleStep => "double_step",
     }
 }
 

@@ -6,7 +6,7 @@
 
 use eframe::egui;
 use egui::{Color32, Mesh, Pos2, Rect, Shape, TextureHandle, TextureOptions, Vec2};
-use scumble_stimuli::Stimulus;
+use scumble_stimuli::{Stimulus, Transfer};
 
 /// A picture on the GPU.
 pub(crate) fn upload(
@@ -14,7 +14,7 @@ pub(crate) fn upload(
     stimulus: &Stimulus,
     size_px: [u32; 2],
 ) -> Result<TextureHandle, scumble_stimuli::Error> {
-    let picture = stimulus.render(size_px[0], size_px[1])?;
+    let picture = stimulus.render(size_px[0], size_px[1], &Transfer::srgb())?;
     let image = egui::ColorImage::from_gray(size_px.map(|side| side as usize), picture.as_raw());
     Ok(context.load_texture("stimulus", image, TextureOptions::NEAREST))
 }

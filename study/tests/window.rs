@@ -35,8 +35,10 @@ fn write_protocol(folder: &Path) -> String {
 
 fn pictures(trial: &Trial) -> [GrayImage; 2] {
     let protocol = short_protocol();
-    [trial.left, trial.right]
-        .map(|stimulus| stimulus.render(protocol.picture_width_px, protocol.picture_height_px).unwrap())
+    [trial.left, trial.right].map(|stimulus| {
+        let (width_px, height_px) = (protocol.picture_width_px, protocol.picture_height_px);
+        stimulus.render(width_px, height_px, &scumble_stimuli::Transfer::srgb()).unwrap()
+    })
 }
 
 /// Presses the space bar until both pictures of `trial` are on the screen, bit for bit, and gives

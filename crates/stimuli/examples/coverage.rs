@@ -21,10 +21,12 @@ fn main() -> ExitCode {
 
 fn run(arguments: &[String]) -> Result<(), String> {
     let [kernel, radius] = arguments else {
-        return Err("two arguments are needed, KERNEL (disc, box, gauss2, gauss3) and R_OVER_A".to_owned());
+        return Err("two arguments are needed, KERNEL (disc, box, gauss2, gauss3, poisson25) and R_OVER_A".to_owned());
     };
-    let kernel =
-        Kernel::from_name(kernel).ok_or_else(|| format!("kernel {kernel:?}; allowed are disc, box, gauss2, gauss3"))?;
+    // A point has no pixel by which the rotated taps could turn.
+    let kernel = Kernel::from_name(kernel)
+        .filter(|&kernel| kernel != Kernel::Poisson25Rotated)
+        .ok_or_else(|| format!("kernel {kernel:?}; allowed are disc, box, gauss2, gauss3, poisson25"))?;
     let radius: f64 = match radius.parse() {
         Ok(radius) if (0.0..=1e6).contains(&radius) => radius,
         _ => {

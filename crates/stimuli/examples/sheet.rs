@@ -7,7 +7,7 @@
 use std::process::ExitCode;
 
 use image::{GrayImage, Luma, imageops};
-use scumble_stimuli::{Pattern, Shape, Stimulus};
+use scumble_stimuli::{Encoding, Kernel, Pattern, Shape, Stimulus, Transfer};
 
 const RATIOS: [f64; 5] = [0.5, 1.0, 2.0, 3.47, 6.0];
 const TEXEL_PX: f64 = 12.0;
@@ -54,13 +54,16 @@ fn cell(pattern: Pattern, shape: Shape, ratio: f64) -> Result<GrayImage, scumble
     let stimulus = Stimulus {
         pattern,
         shape,
+        kernel: Kernel::Disc,
         texel_px: TEXEL_PX,
         radius_px: ratio * TEXEL_PX,
         contrast: 1.0,
+        encoding: Encoding::LinearLight,
         phase: 0.5,
         mirrored: false,
         inverted: false,
+        tilt_rad: 0.0,
         dither_seed: Some(1),
     };
-    stimulus.render(CELL_WIDTH_PX, CELL_HEIGHT_PX)
+    stimulus.render(CELL_WIDTH_PX, CELL_HEIGHT_PX, &Transfer::srgb())
 }

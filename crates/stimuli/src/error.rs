@@ -21,4 +21,7 @@ pub enum Error {
         /// Height asked for.
         height_px: u32,
     },
+    /// The measured table is not that of a display.
+    #[error("{0}")]
+    Table(String),
 }

@@ -9,25 +9,29 @@
 //! 2. [`Silhouette`]: the coverage of a filtered stair, step and line as a few of those, exact to
 //!    1e-12 (disc, box) and 1e-9 (Gaussian) against an independent table.
 //! 3. [`Stimulus`]: one picture of the experiment as a handful of numbers, and
-//!    [`Stimulus::render`], which turns it into 8-bit sRGB at physical pixels.
+//!    [`Stimulus::render`], which turns it into 8 bits at physical pixels of a display whose light
+//!    the [`Transfer`] knows.
 //!
 //! Not here: which picture to show (`scumble-psychophysics`), and how (`scumble-study`).
 //!
 //! ```
-//! use scumble_stimuli::{Pattern, Shape, Stimulus};
+//! use scumble_stimuli::{Encoding, Kernel, Pattern, Shape, Stimulus, Transfer};
 //!
 //! let stimulus = Stimulus {
 //!     pattern: Pattern::Stair,
 //!     shape: Shape::Artifact,
+//!     kernel: Kernel::Disc,
 //!     texel_px: 10.0,
 //!     radius_px: 20.0,
 //!     contrast: 1.0,
+//!     encoding: Encoding::LinearLight,
 //!     phase: 0.0,
 //!     mirrored: false,
 //!     inverted: false,
+//!     tilt_rad: 0.0,
 //!     dither_seed: None,
 //! };
-//! let picture = stimulus.render(100, 100)?;
+//! let picture = stimulus.render(100, 100, &Transfer::srgb())?;
 //! assert_eq!(picture.get_pixel(0, 0).0, [255], "lit above the edge");
 //! assert_eq!(picture.get_pixel(99, 99).0, [0], "in shadow below it");
 //! # Ok::<(), scumble_stimuli::Error>(())
@@ -36,15 +40,18 @@
 mod error;
 mod kernel;
 mod level;
+mod picture_hash;
 mod render;
 mod silhouette;
 mod stimulus;
+mod transfer;
 
 pub use error::Error;
 pub use kernel::Kernel;
-pub use level::{linear_from_srgb, srgb_from_linear};
+pub use picture_hash::picture_sha256;
 pub use silhouette::Silhouette;
-pub use stimulus::{Pattern, Shape, Stimulus};
+pub use stimulus::{Encoding, Pattern, Shape, Stimulus};
+pub use transfer::Transfer;
 
 /// Longest side of a picture, in pixels: the largest texture of common devices.
 pub const MAX_SIDE_PX: u32 = 16_384;

@@ -3,7 +3,8 @@
 use proptest::prelude::*;
 use scumble_stimuli::{Kernel, Silhouette};
 
-const EDGES: [Silhouette; 3] = [Silhouette::Stair, Silhouette::Step, Silhouette::Line { slope: 1.0 }];
+const EDGES: [Silhouette; 4] =
+    [Silhouette::Stair, Silhouette::Step, Silhouette::Line { slope: 1.0 }, Silhouette::DoubleStep];
 const KERNELS: [Kernel; 4] = [Kernel::Disc, Kernel::Box, Kernel::GaussianHalf, Kernel::GaussianThird];
 
 #[test]
@@ -30,6 +31,7 @@ fn every_row_of_the_reference_table_is_met() {
 fn in_shadow(edge: Silhouette, x: f64, y: f64) -> bool {
     match edge {
         Silhouette::Stair => y < x.floor() + 0.5,
+        Silhouette::DoubleStep => y < x.floor() + if x < 0.0 { 1.0 } else { 0.0 },
         Silhouette::Step => y < if x < 0.0 { -0.5 } else { 0.5 },
         Silhouette::Line { slope } => y < slope * x,
     }
@@ -38,7 +40,7 @@ fn in_shadow(edge: Silhouette, x: f64, y: f64) -> bool {
 #[test]
 fn disc_and_box_agree_with_brute_force() {
     const SIDE: i32 = 800;
-    let edges = [EDGES[0], EDGES[1], EDGES[2], Silhouette::Line { slope: 0.3 }];
+    let edges = [EDGES[0], EDGES[1], EDGES[2], EDGES[3], Silhouette::Line { slope: 0.3 }];
     for (kernel, radius, x, y) in
         [(Kernel::Disc, 1.3, 0.31, 0.87), (Kernel::Disc, 3.47, -0.45, 0.2), (Kernel::Box, 2.2, 0.7, 0.1)]
     {
@@ -130,7 +132,7 @@ proptest! {
         kernel in proptest::sample::select(KERNELS.to_vec()), radius in 0.0..20.0_f64,
         x in -30.0..30.0_f64, y in -30.0..30.0_f64, slope in -3.0..3.0_f64,
     ) {
-        for edge in [EDGES[0], EDGES[1], Silhouette::Line { slope }] {
+        for edge in [EDGES[0], EDGES[1], EDGES[3], Silhouette::Line { slope }] {
             let covered = edge.coverage(kernel, radius, x, y);
             prop_assert!((-1e-12..=1.0 + 1e-12).contains(&covered), "{:?}: {}", edge, covered);
         }

@@ -1,20 +1,41 @@
 //! Promises of a rendered stimulus: brute force, levels, symmetry, phase, determinism, refusals.
 
 use image::GrayImage;
-use scumble_stimuli::{Error, Kernel, Pattern, Shape, Silhouette, Stimulus, linear_from_srgb, srgb_from_linear};
+use scumble_stimuli::{Encoding, Error, Kernel, Pattern, Shape, Silhouette, Stimulus, Transfer};
+
+const PATTERNS: [Pattern; 3] = [Pattern::Stair, Pattern::Step, Pattern::DoubleStep];
+
+/// The picture on an sRGB display.
+fn draw(what: &Stimulus, width_px: u32, height_px: u32) -> GrayImage {
+    what.render(width_px, height_px, &Transfer::srgb()).expect("a valid stimulus")
+}
+
+/// Light of a level of an sRGB display.
+fn light(level: u8) -> f64 {
+    Transfer::srgb().light(level)
+}
 
 fn stimulus(pattern: Pattern, shape: Shape) -> Stimulus {
     Stimulus {
         pattern,
         shape,
+        kernel: Kernel::Disc,
         texel_px: 10.0,
         radius_px: 15.0,
         contrast: 1.0,
+        encoding: Encoding::LinearLight,
         phase: 0.3,
         mirrored: false,
         inverted: false,
+        tilt_rad: 0.0,
         dither_seed: None,
     }
+}
+
+/// Largest difference of a picture's light from the light expected.
+fn largest_light_difference(picture: &GrayImage, expected: &[f64]) -> f64 {
+    assert_eq!(picture.as_raw().len(), expected.len());
+    picture.iter().zip(expected).map(|(level, expected)| (light(*level) - expected).abs()).fold(0.0, f64::max)
 }
 
 fn largest_difference(a: &GrayImage, b: &GrayImage) -> u8 {
@@ -23,12 +44,13 @@ fn largest_difference(a: &GrayImage, b: &GrayImage) -> u8 {
 }
 
 /// A stimulus by definition: the hard shadow, averaged over a dense grid of the disc.
-fn supersampled(what: &Stimulus, width_px: u32, height_px: u32) -> GrayImage {
+fn supersampled(what: &Stimulus, width_px: u32, height_px: u32) -> Vec<f64> {
     const SIDE: i32 = 120;
     let texel = what.texel_px;
     let slope = match what.pattern {
         Pattern::Stair => 1.0,
         Pattern::Step => texel / f64::from(width_px),
+        Pattern::DoubleStep => 1.0 - texel / f64::from(width_px),
     };
     let in_shadow = |x: f64, y: f64| match (what.shape, what.pattern) {
         (Shape::Line, _) => y < slope * x,
@@ -40,8 +62,14 @@ fn supersampled(what: &Stimulus, width_px: u32, height_px: u32) -> GrayImage {
             let step_px = (what.phase - 0.5) * 0.5 * f64::from(width_px);
             y < slope * step_px + if x < step_px { -0.5 * texel } else { 0.5 * texel }
         }
+        (Shape::Artifact, Pattern::DoubleStep) => {
+            // The nearest texel centre, and whether the true line is above it.
+            let tread_px = (what.phase - 0.5) * 0.5 * f64::from(width_px.min(height_px));
+            let centre = |place: f64| texel * ((place / texel).floor() + 0.5);
+            centre(y - slope * tread_px) < slope * centre(x - tread_px)
+        }
     };
-    GrayImage::from_fn(width_px, height_px, |column, row| {
+    let pixel = |column: u32, row: u32| {
         let x = f64::from(column) + 0.5 - 0.5 * f64::from(width_px);
         let y = 0.5 * f64::from(height_px) - f64::from(row) - 0.5;
         let (mut inside, mut dark) = (0.0, 0.0);
@@ -52,40 +80,39 @@ fn supersampled(what: &Stimulus, width_px: u32, height_px: u32) -> GrayImage {
                 dark += f64::from(u8::from(in_shadow(x + what.radius_px * u, y + what.radius_px * v)));
             }
         }
-        image::Luma([(255.0 * srgb_from_linear(what.contrast * (1.0 - dark / inside))).round() as u8])
-    })
+        what.contrast * (1.0 - dark / inside)
+    };
+    (0..height_px).flat_map(|row| (0..width_px).map(move |column| (column, row))).map(|(c, r)| pixel(c, r)).collect()
 }
 
 #[test]
 fn a_picture_agrees_with_a_supersampled_one() {
-    for pattern in [Pattern::Stair, Pattern::Step] {
+    for pattern in PATTERNS {
         for shape in [Shape::Artifact, Shape::Line] {
             let what = stimulus(pattern, shape);
-            let exact = what.render(48, 32).unwrap();
-            let sampled = supersampled(&what, 48, 32);
-            // Compared as light: in the darks one sample of 11,000 is several levels of sRGB.
-            for (x, y) in exact.iter().zip(sampled.iter()) {
-                let [x, y] = [x, y].map(|level| linear_from_srgb(f64::from(*level) / 255.0));
-                assert!((x - y).abs() < 0.012, "{pattern:?} {shape:?}: {x} against {y}");
-            }
+            let worst = largest_light_difference(&draw(&what, 48, 32), &supersampled(&what, 48, 32));
+            assert!(worst < 0.012, "{pattern:?} {shape:?}: {worst}");
         }
     }
 }
 
 #[test]
 fn the_supersampled_picture_tells_a_stair_from_a_line() {
-    let mut what = stimulus(Pattern::Stair, Shape::Artifact);
-    what.radius_px = 5.0;
-    let sampled = supersampled(&what, 48, 32);
-    what.shape = Shape::Line;
-    assert!(largest_difference(&what.render(48, 32).unwrap(), &sampled) > 20);
+    for pattern in PATTERNS {
+        let mut what = stimulus(pattern, Shape::Artifact);
+        what.radius_px = 5.0;
+        let sampled = supersampled(&what, 48, 32);
+        what.shape = Shape::Line;
+        let worst = largest_light_difference(&draw(&what, 48, 32), &sampled);
+        assert!(worst > 0.1, "{pattern:?}: {worst}");
+    }
 }
 
 #[test]
 fn half_contrast_halves_the_light_of_the_lit_side_and_keeps_the_shadow_black() {
     for (contrast, lit) in [(1.0, 255), (0.5, 188)] {
         let what = Stimulus { contrast, ..stimulus(Pattern::Stair, Shape::Line) };
-        let picture = what.render(200, 200).unwrap();
+        let picture = draw(&what, 200, 200);
         assert_eq!(picture.get_pixel(0, 0).0, [lit]);
         assert_eq!(picture.get_pixel(199, 199).0, [0]);
     }
@@ -93,14 +120,14 @@ fn half_contrast_halves_the_light_of_the_lit_side_and_keeps_the_shadow_black() {
 
 #[test]
 fn mirrored_and_inverted_do_what_they_say() {
-    for pattern in [Pattern::Stair, Pattern::Step] {
+    for pattern in PATTERNS {
         let plain = stimulus(pattern, Shape::Artifact);
-        let picture = plain.render(60, 60).unwrap();
-        let mirrored = Stimulus { mirrored: true, ..plain }.render(60, 60).unwrap();
+        let picture = draw(&plain, 60, 60);
+        let mirrored = draw(&Stimulus { mirrored: true, ..plain }, 60, 60);
         assert_eq!(mirrored, image::imageops::flip_horizontal(&picture));
-        let inverted = Stimulus { inverted: true, ..plain }.render(60, 60).unwrap();
+        let inverted = draw(&Stimulus { inverted: true, ..plain }, 60, 60);
         for (x, y) in picture.iter().zip(inverted.iter()) {
-            let [x, y] = [x, y].map(|level| linear_from_srgb(f64::from(*level) / 255.0));
+            let [x, y] = [light(*x), light(*y)];
             // Half a level of sRGB is up to 0.0045 of light.
             assert!((x + y - 1.0).abs() < 0.009, "{x} + {y}");
         }
@@ -109,7 +136,7 @@ fn mirrored_and_inverted_do_what_they_say() {
 
 #[test]
 fn a_whole_period_of_phase_leaves_the_stair_and_no_phase_moves_a_line() {
-    let at = |shape, phase| Stimulus { phase, ..stimulus(Pattern::Stair, shape) }.render(60, 60).unwrap();
+    let at = |shape, phase| draw(&Stimulus { phase, ..stimulus(Pattern::Stair, shape) }, 60, 60);
     assert_eq!(largest_difference(&at(Shape::Artifact, 0.0), &at(Shape::Artifact, 1.0)), 0);
     assert!(largest_difference(&at(Shape::Artifact, 0.0), &at(Shape::Artifact, 0.5)) > 10);
     assert_eq!(at(Shape::Line, 0.0), at(Shape::Line, 0.5));
@@ -119,7 +146,7 @@ fn a_whole_period_of_phase_leaves_the_stair_and_no_phase_moves_a_line() {
 fn a_step_keeps_a_quarter_of_the_width_from_the_border() {
     for (phase, expected) in [(0.0, 150), (0.5, 300), (1.0, 450)] {
         let what = Stimulus { phase, radius_px: 0.0, ..stimulus(Pattern::Step, Shape::Artifact) };
-        let picture = what.render(600, 200).unwrap();
+        let picture = draw(&what, 600, 200);
         let edge_row = |column| (0..200).find(|&row| picture.get_pixel(column, row).0 == [0]).unwrap();
         let step = (1..600).find(|&column| edge_row(column) != edge_row(column - 1)).unwrap();
         assert_eq!(step, expected, "phase {phase}");
@@ -130,7 +157,7 @@ fn a_step_keeps_a_quarter_of_the_width_from_the_border() {
 #[test]
 fn the_line_of_a_step_rises_by_one_texel_over_the_width() {
     let what = Stimulus { radius_px: 0.0, ..stimulus(Pattern::Step, Shape::Line) };
-    let picture = what.render(600, 100).unwrap();
+    let picture = draw(&what, 600, 100);
     let dark = |column| (0..100).filter(|&row| picture.get_pixel(column, row).0 == [0]).count();
     assert_eq!((dark(0), dark(599)), (45, 55));
 }
@@ -139,7 +166,7 @@ fn the_line_of_a_step_rises_by_one_texel_over_the_width() {
 fn equal_stimuli_give_equal_bytes_and_another_seed_gives_other_noise() {
     let seeded = |seed| {
         let what = Stimulus { dither_seed: Some(seed), ..stimulus(Pattern::Step, Shape::Artifact) };
-        what.render(120, 80).unwrap()
+        draw(&what, 120, 80)
     };
     assert_eq!(seeded(7), seeded(7));
     assert_ne!(seeded(7), seeded(8));
@@ -148,8 +175,8 @@ fn equal_stimuli_give_equal_bytes_and_another_seed_gives_other_noise() {
 #[test]
 fn dithering_moves_no_pixel_by_more_than_a_level_and_has_the_exact_mean() {
     let plain = stimulus(Pattern::Stair, Shape::Line);
-    let rounded = plain.render(200, 200).unwrap();
-    let dithered = Stimulus { dither_seed: Some(1), ..plain }.render(200, 200).unwrap();
+    let rounded = draw(&plain, 200, 200);
+    let dithered = draw(&Stimulus { dither_seed: Some(1), ..plain }, 200, 200);
     assert_eq!(largest_difference(&rounded, &dithered), 1);
     assert_eq!(dithered.get_pixel(0, 0).0, [255], "an exact level stays itself");
 
@@ -157,21 +184,12 @@ fn dithering_moves_no_pixel_by_more_than_a_level_and_has_the_exact_mean() {
     for (column, row, level) in dithered.enumerate_pixels() {
         let (x, y) = (f64::from(column) - 99.5, 99.5 - f64::from(row));
         let shadow = Silhouette::Line { slope: 1.0 }.coverage(Kernel::Disc, 1.5, x / 10.0, y / 10.0);
-        expected += 255.0 * srgb_from_linear(1.0 - shadow) / 40_000.0;
-        found += f64::from(level.0[0]) / 40_000.0;
+        expected += (1.0 - shadow) / 40_000.0;
+        found += light(level.0[0]) / 40_000.0;
     }
-    // Some 8,000 partly lit pixels with a variance of at most 1/4 each: standard error 0.0011.
-    assert!((expected - found).abs() < 0.0045, "{found} against {expected}");
-}
-
-#[test]
-fn the_transfer_function_inverts_and_meets_the_standards_values() {
-    assert!((srgb_from_linear(0.5) - 0.735_356_98).abs() < 1e-7);
-    assert!((srgb_from_linear(0.001) - 0.012_92).abs() < 1e-12);
-    for k in 0..=1000 {
-        let linear = f64::from(k) / 1000.0;
-        assert!((linear_from_srgb(srgb_from_linear(linear)) - linear).abs() < 1e-7);
-    }
+    // Some 8,000 partly lit pixels, each with a variance of at most a quarter of a level's light,
+    // 0.0087, squared: standard error 1.0e-5.
+    assert!((expected - found).abs() < 4e-5, "{found} against {expected}");
 }
 
 #[test]
@@ -184,12 +202,13 @@ fn numbers_out_of_range_are_refused_by_name() {
         ("radius_px", Stimulus { radius_px: f64::INFINITY, ..good }),
         ("contrast", Stimulus { contrast: 1.5, ..good }),
         ("phase", Stimulus { phase: -0.1, ..good }),
+        ("tilt_rad", Stimulus { tilt_rad: 3.2, ..good }),
     ];
     for (name, what) in bad {
-        let error = what.render(10, 10).unwrap_err();
+        let error = what.render(10, 10, &Transfer::srgb()).unwrap_err();
         assert!(matches!(error, Error::Field { field, .. } if field == name), "{error}");
         assert!(error.to_string().contains("allowed is"), "{error}");
     }
-    assert!(matches!(good.render(0, 10), Err(Error::Size { .. })));
-    assert!(matches!(good.render(10, 20_000), Err(Error::Size { .. })));
+    assert!(matches!(good.render(0, 10, &Transfer::srgb()), Err(Error::Size { .. })));
+    assert!(matches!(good.render(10, 20_000, &Transfer::srgb()), Err(Error::Size { .. })));
 }

@@ -3,7 +3,7 @@
 use eframe::egui;
 use egui::{Sense, TextureHandle, Ui, Vec2};
 use scumble_psychophysics::Protocol;
-use scumble_stimuli::{Pattern, Shape, Stimulus};
+use scumble_stimuli::{Encoding, Kernel, Pattern, Shape, Stimulus};
 
 use super::page;
 use crate::pixels;
@@ -87,12 +87,15 @@ fn example(shape: Shape, scale: f32) -> Stimulus {
     Stimulus {
         pattern: Pattern::Stair,
         shape,
+        kernel: Kernel::Disc,
         texel_px,
         radius_px: RATIO * texel_px,
         contrast: 1.0,
+        encoding: Encoding::LinearLight,
         phase: 0.5,
         mirrored: false,
         inverted: false,
+        tilt_rad: 0.0,
         dither_seed: None,
     }
 }
