@@ -8,7 +8,7 @@ use scumble_stimuli::{Encoding, Kernel, Pattern};
 use serde::{Deserialize, Serialize};
 
 use crate::convergence::Convergence;
-use crate::quest_config::QuestConfig;
+use crate::quest_config::{PlacementRule, QuestConfig};
 use crate::trial::Condition;
 
 /// Every parameter of a session.
@@ -189,6 +189,7 @@ impl Protocol {
             gamma: rules.guess_probability,
             grain: rules.table_step_log10,
             range: rules.table_width_log10,
+            placement: PlacementRule::Quantile,
         }
     }
 

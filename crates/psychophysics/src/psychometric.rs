@@ -50,12 +50,12 @@ impl Psychometric {
     pub fn x_threshold(&self) -> f64 {
         let amplitude = (1.0 - self.delta) * (1.0 - self.gamma);
         let rest = self.ceiling() - self.threshold_probability;
-        (amplitude / rest).ln().log10() / self.beta
+        libm::log10(libm::log(amplitude / rest)) / self.beta
     }
 
     /// The curve with `T - x_threshold = 0`.
     pub(crate) fn unshifted(&self, x: f64) -> f64 {
-        let seen = 1.0 - (1.0 - self.gamma) * (-10f64.powf(self.beta * x)).exp();
+        let seen = 1.0 - (1.0 - self.gamma) * libm::exp(-libm::pow(10.0, self.beta * x));
         self.delta * self.gamma + (1.0 - self.delta) * seen
     }
 

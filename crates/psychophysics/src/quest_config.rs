@@ -4,10 +4,21 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::{Error, require};
+use crate::grid::Grid;
 use crate::psychometric::Psychometric;
 
-/// Longest table of thresholds; beyond it a typing error is likelier than a wish.
-const TABLE_POINTS_MAX: f64 = 1e6;
+/// Which summary of the posterior is shown next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PlacementRule {
+    /// The quantile of the order that minimises the expected variance (Pelli 1987).
+    #[default]
+    Quantile,
+    /// The mean (King-Smith et al. 1994).
+    Mean,
+    /// The mode (Watson & Pelli 1983).
+    Mode,
+}
 
 /// Parameters of one QUEST. Intensity and threshold have the same unit, usually log10.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,22 +40,16 @@ pub struct QuestConfig {
     pub grain: f64,
     /// Width of the table; it reaches half of it to either side of `t_guess`.
     pub range: f64,
+    /// What is shown next.
+    pub placement: PlacementRule,
 }
 
 impl QuestConfig {
     /// Refuses parameters outside their ranges; the error names the parameter.
     pub fn check(&self) -> Result<(), Error> {
-        require(self.t_guess.is_finite(), "tGuess", self.t_guess, "a finite number")?;
-        let positive = [("tGuessSd", self.t_guess_sd), ("grain", self.grain), ("range", self.range)];
-        for (field, value) in positive {
-            require(value.is_finite() && value > 0.0, field, value, "a finite number above 0")?;
-        }
-        require(
-            self.range / self.grain <= TABLE_POINTS_MAX,
-            "range / grain",
-            self.range / self.grain,
-            "at most 1000000 table points",
-        )?;
+        Grid::check(("tGuess", self.t_guess), ("grain", self.grain), ("range", self.range))?;
+        let sd = self.t_guess_sd;
+        require(sd.is_finite() && sd > 0.0, "tGuessSd", sd, "a finite number above 0")?;
         self.psychometric().check()
     }
 
@@ -55,8 +60,12 @@ impl QuestConfig {
 
     /// Table points on either side of `t_guess`: half of `range / grain`, rounded up.
     pub fn half_points(&self) -> usize {
-        // The slack ignores a quotient that rounding puts just above an even whole number.
-        (self.range / self.grain / 2.0 - 1e-9).ceil() as usize
+        self.grid().half
+    }
+
+    /// The table of thresholds.
+    pub(crate) fn grid(&self) -> Grid {
+        Grid::new(self.t_guess, self.grain, self.range)
     }
 }
 
@@ -75,6 +84,8 @@ struct ConfigFile {
     grain: f64,
     #[serde(default = "default_range")]
     range: f64,
+    #[serde(default)]
+    placement: PlacementRule,
     #[serde(default, deserialize_with = "ignore", rename = "unit")]
     _unit: (),
     #[serde(default, deserialize_with = "ignore", rename = "note")]
@@ -122,6 +133,7 @@ impl From<ConfigFile> for QuestConfig {
             gamma: file.gamma,
             grain: file.grain,
             range: file.range,
+            placement: file.placement,
         }
     }
 }

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::quest::{Placement, Quest};
+use crate::grid::Shown;
+use crate::quest::Quest;
 use crate::quest_config::QuestConfig;
 
 /// One row: the posterior before the first (`trial` 0) or after a trial.
@@ -25,7 +26,7 @@ pub struct QuestSummary {
     pub q05: f64,
     /// Its 95 % quantile.
     pub q95: f64,
-    /// The placement of the next trial.
+    /// The quantile that QUEST places the next trial at.
     pub next_quantile: f64,
     /// Standard deviation of the posterior.
     pub sd: f64,
@@ -39,15 +40,15 @@ impl QuestSummary {
     /// The rows of a whole sequence of `(intensity, response)`: the prior, then one a response.
     pub fn of_sequence(config: QuestConfig, responses: &[(f64, bool)]) -> Result<Vec<Self>, Error> {
         let mut quest = Quest::new(config)?;
-        let mut rows = vec![Self::of(&quest, 0, None, Placement::OnTable)];
+        let mut rows = vec![Self::of(&quest, 0, None, Shown::OnTable)];
         for ((intensity, response), trial) in responses.iter().zip(1..) {
-            let placement = quest.update(*intensity, *response)?;
-            rows.push(Self::of(&quest, trial, Some((*intensity, *response)), placement));
+            let shown_at = quest.update(*intensity, *response)?;
+            rows.push(Self::of(&quest, trial, Some((*intensity, *response)), shown_at));
         }
         Ok(rows)
     }
 
-    fn of(quest: &Quest, trial: u32, shown: Option<(f64, bool)>, placement: Placement) -> Self {
+    fn of(quest: &Quest, trial: u32, shown: Option<(f64, bool)>, shown_at: Shown) -> Self {
         Self {
             trial,
             intensity: shown.map(|(intensity, _)| intensity),
@@ -57,10 +58,10 @@ impl QuestSummary {
             median: quest.quantile(0.5),
             q05: quest.quantile(0.05),
             q95: quest.quantile(0.95),
-            next_quantile: quest.placement(),
+            next_quantile: quest.quantile(quest.quantile_order()),
             sd: quest.sd(),
             pdf_max: quest.posterior().iter().copied().fold(0.0, f64::max),
-            out_of_range: u8::from(placement == Placement::OffTable),
+            out_of_range: u8::from(shown_at == Shown::OffTable),
         }
     }
 }

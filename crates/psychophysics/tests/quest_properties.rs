@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 use proptest::prelude::*;
-use scumble_psychophysics::{Error, Placement, Protocol, Quest, QuestConfig};
+use scumble_psychophysics::{Error, Protocol, Quest, QuestConfig, Shown};
 
 fn config() -> QuestConfig {
     Protocol::two_alternative().quest_config(3.0)
@@ -58,8 +58,8 @@ fn an_intensity_off_the_table_counts_as_the_tables_end_and_is_reported() {
     let end = config().t_guess + config().range / 2.0;
     let mut at_end = prior();
     let mut beyond = prior();
-    assert_eq!(at_end.update(end, false).unwrap(), Placement::OnTable);
-    assert_eq!(beyond.update(1e300, false).unwrap(), Placement::OffTable);
+    assert_eq!(at_end.update(end, false).unwrap(), Shown::OnTable);
+    assert_eq!(beyond.update(1e300, false).unwrap(), Shown::OffTable);
     assert_eq!(at_end, beyond);
 }
 
