@@ -8,7 +8,7 @@
 //! seeing the data.
 //!
 //! ```sh
-//! cargo run --release -p scumble-analysis --example coverage -- COHORTS PEOPLE SLOPE
+//! cargo run --release -p scumble-analysis --example coverage -- COHORTS PEOPLE SLOPE PROTOCOL
 //! ```
 
 use rayon::prelude::*;
@@ -36,18 +36,13 @@ struct Outcome {
     trials: usize,
 }
 
-fn cohort(people: u32, slope: f64, seed: u64) -> Result<Outcome, Error> {
+fn cohort(protocol: &Protocol, people: u32, slope: f64, seed: u64) -> Result<Outcome, Error> {
     let median = ObserverParameters { ratio: RATIO, slope_per_log10: slope, ..Default::default() };
-    let simulation = Simulation {
-        protocol: Protocol::two_alternative(),
-        observers: people,
-        seed,
-        median,
-        between_sd_log10: BETWEEN_SD,
-    };
+    let simulation =
+        Simulation { protocol: protocol.clone(), observers: people, seed, median, between_sd_log10: BETWEEN_SD };
     let study = simulation.study()?;
     let analysis = Analysis::of(&study)?;
-    let step = analysis.series.iter().find(|s| s.name() == "step, 100 % contrast");
+    let step = analysis.series.iter().find(|s| s.name == "step, 100 % contrast");
     let step = step.ok_or_else(|| Error::CannotFit("no step at 100 %".to_owned()))?;
     let within = |[low, high]: [f64; 2], value: f64| low <= value && value <= high;
 
@@ -69,7 +64,7 @@ fn cohort(people: u32, slope: f64, seed: u64) -> Result<Outcome, Error> {
         hidden_log10_error: hidden.ratio.log10() - hidden_log10,
         hidden_covers: within(hidden.ci95, 10_f64.powf(hidden_log10)),
         without_threshold: analysis.thresholds.iter().filter(|t| t.threshold.is_err()).count(),
-        unconverged: analysis.thresholds.iter().filter(|t| !t.converged).count(),
+        unconverged: analysis.thresholds.iter().map(|t| t.staircases - t.converged).sum(),
         thresholds: analysis.thresholds.len(),
         trials: study.trial_count(),
     })
@@ -79,8 +74,9 @@ fn main() -> Result<(), Error> {
     let mut arguments = std::env::args().skip(1);
     let mut next = |default: f64| arguments.next().and_then(|a| a.parse().ok()).unwrap_or(default);
     let (cohorts, people, slope) = (next(200.0) as u64, next(10.0) as u32, next(3.5));
+    let protocol = Protocol::open(&arguments.next().unwrap_or("two-alternative".to_owned()))?;
     let outcomes: Vec<Outcome> =
-        (0..cohorts).into_par_iter().map(|seed| cohort(people, slope, seed)).collect::<Result<_, _>>()?;
+        (0..cohorts).into_par_iter().map(|seed| cohort(&protocol, people, slope, seed)).collect::<Result<_, _>>()?;
 
     let count = outcomes.len() as f64;
     let mean = |value: fn(&Outcome) -> f64| outcomes.iter().map(value).sum::<f64>() / count;
@@ -89,7 +85,8 @@ fn main() -> Result<(), Error> {
     let percent = |log10: f64| 100.0 * (10_f64.powf(log10) - 1.0);
     let sd = mean(|o| (o.log10_ratio - RATIO.log10()).powi(2)).sqrt();
     println!(
-        "{cohorts} cohorts of {people} people, slope {slope}, {:.0} trials each",
+        "{}: {cohorts} cohorts of {people} people, slope {slope}, {:.0} trials each",
+        protocol.name,
         mean(|o| o.trials as f64) / f64::from(people)
     );
     println!(

@@ -3,13 +3,15 @@
 use scumble_core::{
     ConditionEstimate, Estimate, FormTests, NullTest, PopulationPoint as FilePoint, Relation, RelationFile, SCHEMA,
 };
+use scumble_psychophysics::Protocol;
 
 use crate::{
     Error,
+    assumptions::Assumptions,
     estimate::MeanOverPeople,
     people::Study,
     population::Population,
-    series::{Series, pattern_name},
+    series::{Series, kernel_name, pattern_name, round_of, series_name},
     thresholds::{ConditionThreshold, thresholds_of},
 };
 
@@ -21,9 +23,10 @@ pub const SOFTWARE: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_
 pub struct Analysis {
     /// Every person's thresholds, in the order of people and conditions.
     pub thresholds: Vec<ConditionThreshold>,
-    /// Every pattern and contrast with thresholds of at least two people.
+    /// Every pattern, contrast and kernel with thresholds of at least two people.
     pub series: Vec<Series>,
-    /// Index of the worst series: the largest ratio. It is the renderer's number.
+    /// Index of the worst series: the largest ratio under the protocol's first kernel. It is the
+    /// renderer's number, which holds for one kernel.
     pub worst: usize,
     /// The viewers of the worst series.
     pub population: Population,
@@ -40,18 +43,18 @@ impl Analysis {
     pub fn of(study: &Study) -> Result<Self, Error> {
         let protocol = &study.protocol;
         let thresholds: Vec<_> = study.people.iter().flat_map(|person| thresholds_of(person, protocol)).collect();
-        if !thresholds.iter().any(|entry| entry.converged) {
+        if !thresholds.iter().any(|entry| entry.converged > 0) {
             return Err(Error::CannotFit(format!(
-                "none of {} conditions converged in any of {} people",
-                thresholds.len(),
+                "none of {} staircases converged in any of {} people",
+                thresholds.iter().map(|entry| entry.staircases).sum::<usize>(),
                 study.people.len()
             )));
         }
 
-        let (mut series, mut exclusions) = (Vec::new(), left_out(&thresholds));
+        let (mut series, mut exclusions) = (Vec::new(), left_out(&thresholds, protocol));
         let mut refusal = None;
-        for (pattern, contrast) in protocol.rounds() {
-            match Series::of(pattern, contrast, &study.people, protocol) {
+        for round in protocol.rounds() {
+            match Series::of(round, &study.people, protocol) {
                 Ok(found) => series.push(found),
                 Err(reason) => {
                     exclusions.push(reason.to_string());
@@ -60,19 +63,19 @@ impl Analysis {
             }
         }
         let no_series = || Error::CannotFit("the protocol has no round".to_owned());
-        let Some(worst) =
-            (0..series.len()).max_by(|&a, &b| series[a].log10_ratio.mean.total_cmp(&series[b].log10_ratio.mean))
-        else {
+        let of_kernel = |index: &usize| Some(&series[*index].round.kernel) == protocol.conditions.kernels.first();
+        let larger = |a: &usize, b: &usize| series[*a].log10_ratio.mean.total_cmp(&series[*b].log10_ratio.mean);
+        let Some(worst) = (0..series.len()).filter(of_kernel).max_by(larger) else {
             return Err(refusal.unwrap_or_else(no_series));
         };
 
-        let guess = protocol.guess_probability;
+        let known = Assumptions::of_protocol(protocol);
         let population = Population {
             thresholds: series[worst].log10_ratio,
             measurement_variance: series[worst].measurement_variance(),
-            detection_at_threshold: (protocol.threshold_probability - guess) / (1.0 - guess),
-            slope: protocol.slope_per_log10,
-            blind_share: protocol.lapse_probability,
+            detection_at_threshold: known.detection_at_threshold,
+            slope: known.slope,
+            blind_share: known.blind_share,
         };
         Ok(Self { thresholds, series, worst, population, exclusions })
     }
@@ -101,7 +104,7 @@ impl Analysis {
                     ratio: Estimate { value: point.ratio, standard_error: point.standard_error, ci95: point.ci95 },
                 })
                 .collect(),
-            kernel: Some("disc".to_owned()),
+            kernel: Some(kernel_name(worst.round.kernel).to_owned()),
             tests: worst.intercept_px.zip(worst.exponent).map(|(intercept, exponent)| FormTests {
                 intercept: null_test(&intercept, 0.0),
                 exponent: null_test(&exponent, 1.0),
@@ -110,8 +113,9 @@ impl Analysis {
                 .series
                 .iter()
                 .map(|series| ConditionEstimate {
-                    pattern: pattern_name(series.pattern).to_owned(),
-                    contrast: series.contrast,
+                    pattern: pattern_name(series.round.pattern).to_owned(),
+                    contrast: series.round.contrast,
+                    kernel: Some(kernel_name(series.round.kernel).to_owned()),
                     ratio: ratio_of(series),
                 })
                 .collect(),
@@ -136,13 +140,13 @@ fn null_test(mean: &MeanOverPeople, null: f64) -> NullTest {
 }
 
 /// A sentence for every condition without a threshold.
-fn left_out(thresholds: &[ConditionThreshold]) -> Vec<String> {
+fn left_out(thresholds: &[ConditionThreshold], protocol: &Protocol) -> Vec<String> {
     thresholds
         .iter()
         .filter_map(|entry| {
             let reason = entry.threshold.err()?;
             let condition = &entry.condition;
-            let series = crate::series::series_name(condition.pattern, condition.contrast);
+            let series = series_name(round_of(condition), protocol);
             Some(format!("{}, {series}, {} px: {reason}", entry.person, condition.texel_px))
         })
         .collect()

@@ -1,15 +1,16 @@
-//! Thresholds against texel size, as in Kreuzer 2017, Fig. 4.6: one panel per contrast, with people,
+//! Thresholds against texel size, as in Kreuzer 2017, Fig. 4.6: one panel per contrast and kernel, with people,
 //! their geometric means, our line with its interval and the published line through the origin.
 
 use plotters::{coord::Shift, prelude::*};
-use scumble_stimuli::Pattern;
+use scumble_psychophysics::Round;
+use scumble_stimuli::{Kernel, Pattern};
 
 use crate::{
     Error,
     analysis::Analysis,
     estimate::MeanOverPeople,
     figure::{DrawError, GREY, GRID, INK, pattern_color, svg, text},
-    series::{Series, pattern_name},
+    series::{Series, kernel_name, pattern_name},
 };
 
 /// File name of the figure.
@@ -25,19 +26,30 @@ type Area<'a, 'b> = DrawingArea<SVGBackend<'a>, Shift>;
 /// # Errors
 /// Only the plotting library's own.
 pub fn fit_figure(analysis: &Analysis) -> Result<String, Error> {
-    let mut contrasts: Vec<f64> = analysis.series.iter().map(|series| series.contrast).collect();
-    contrasts.sort_by(|a, b| b.total_cmp(a));
-    contrasts.dedup();
-    let size_px = (PANEL_PX.0 * contrasts.len() as u32, PANEL_PX.1 + FOOT_PX);
+    let mut panels: Vec<Vec<&Series>> = Vec::new();
+    for series in &analysis.series {
+        let alike =
+            |panel: &&mut Vec<&Series>| panel.iter().all(|other| panel_of(&other.round) == panel_of(&series.round));
+        match panels.iter_mut().find(alike) {
+            Some(panel) => panel.push(series),
+            None => panels.push(vec![series]),
+        }
+    }
+    panels.sort_by(|a, b| b[0].round.contrast.total_cmp(&a[0].round.contrast));
+    let size_px = (PANEL_PX.0 * panels.len() as u32, PANEL_PX.1 + FOOT_PX);
     svg(FIT_FIGURE, "Radius at threshold against texel size", size_px, |page| {
-        let (panels, foot) = page.split_vertically(PANEL_PX.1);
+        let (area, foot) = page.split_vertically(PANEL_PX.1);
         let limits = limits(analysis);
-        for (panel, contrast) in panels.split_evenly((1, contrasts.len())).iter().zip(contrasts) {
-            let series: Vec<&Series> = analysis.series.iter().filter(|series| series.contrast == contrast).collect();
-            draw_panel(panel, contrast, &series, limits)?;
+        for (area, series) in area.split_evenly((1, panels.len())).iter().zip(&panels) {
+            draw_panel(area, series, limits)?;
         }
         draw_key(&foot)
     })
+}
+
+/// What the series of one panel have in common.
+fn panel_of(round: &Round) -> (f64, Kernel) {
+    (round.contrast, round.kernel)
 }
 
 /// Right and upper end of the axes: shared by the panels, with room for the labels of the lines.
@@ -51,13 +63,9 @@ fn limits(analysis: &Analysis) -> (f64, f64) {
     (largest_px * 1.42, top_px * 1.05)
 }
 
-fn draw_panel(
-    panel: &Area<'_, '_>,
-    contrast: f64,
-    series: &[&Series],
-    (right_px, top_px): (f64, f64),
-) -> Result<(), DrawError> {
-    let title = format!("{:.0} % contrast", contrast * 100.0);
+fn draw_panel(panel: &Area<'_, '_>, series: &[&Series], (right_px, top_px): (f64, f64)) -> Result<(), DrawError> {
+    let (contrast, kernel) = panel_of(&series[0].round);
+    let title = format!("{:.0} % contrast, {}", contrast * 100.0, kernel_name(kernel));
     let mut chart = ChartBuilder::on(panel)
         .margin(14)
         .caption(title, text(19, INK))
@@ -81,7 +89,7 @@ fn draw_panel(
         .draw()?;
 
     for series in series {
-        let color = pattern_color(series.pattern);
+        let color = pattern_color(series.round.pattern);
         let end_px = series.texels_px.last().copied().unwrap_or(right_px) * 1.08;
         let [low, high] = series.ratio_ci95();
 
@@ -97,10 +105,10 @@ fn draw_panel(
         // and right of their texel size.
         let people = series.people.len() as f64;
         let spread_px = series.texels_px.first().copied().unwrap_or(0.0) * 0.09;
-        let aside_px = match series.pattern {
+        let aside_px = match series.round.pattern {
             Pattern::Stair => -spread_px,
             Pattern::Step => spread_px,
-            Pattern::DoubleStep => 0.0,
+            Pattern::DoubleStep => 3.0 * spread_px,
         };
         for (index, person) in series.people.iter().enumerate() {
             let shift = aside_px + spread_px * (2.0 * (index as f64 + 0.5) / people - 1.0);
@@ -117,7 +125,7 @@ fn draw_panel(
             chart.draw_series([Circle::new((x, mean), 5, WHITE.filled())])?;
             chart.draw_series([Circle::new((x, mean), 5, color.stroke_width(2))])?;
         }
-        let label = format!("{} {:.2}", pattern_name(series.pattern), series.ratio());
+        let label = format!("{} {:.2}", pattern_name(series.round.pattern), series.ratio());
         let published = format!("line {:.2}", series.origin_line.slope);
         let place = chart.backend_coord(&(end_px * 1.01, series.ratio() * end_px));
         let root = panel.strip_coord_spec();

@@ -4,9 +4,9 @@
 //! | Step | Where | Does |
 //! |---|---|---|
 //! | read | [`Study::read`] | replays every session through the experiment's state machine |
-//! | threshold | [`thresholds_of`], [`joint_threshold`] | Weibull function by maximum likelihood ([`fit`]), slope, guess and lapses from the protocol |
-//! | ratio | [`Series`] | per pattern and contrast: mean of log10 ratios over people with Student's t, beside the published line through the origin |
-//! | worst case | [`Analysis`] | the largest ratio of all conditions is the renderer's number |
+//! | threshold | [`thresholds_of`], [`joint_threshold`] | Weibull function by maximum likelihood ([`fit`]) under [`Assumptions`]: slope and lapses of the protocol, guess rate of the protocol or counted |
+//! | ratio | [`Series`] | per pattern, contrast and kernel: mean of log10 ratios over people with Student's t, beside the published line through the origin |
+//! | worst case | [`Analysis`] | the largest ratio under the first kernel is the renderer's number |
 //! | population | [`Population`] | from the median person to 90, 95, 99 % of viewers |
 //! | files | [`fit_study`] | relation, report, tables, figures, written together |
 //!
@@ -41,6 +41,8 @@
 //! no function here returns NaN for them.
 
 mod analysis;
+mod assumptions;
+mod checks;
 mod count_table;
 mod error;
 mod estimate;
@@ -62,6 +64,8 @@ mod thresholds;
 mod weibull;
 
 pub use analysis::{Analysis, SOFTWARE};
+pub use assumptions::Assumptions;
+pub use checks::Checks;
 pub use count_table::{CountTableFit, fit_count_table, read_count_table};
 pub use error::{Error, Unidentified};
 pub use estimate::{MeanOverPeople, SizePoint, exponent, intercept_px, line, line_through_origin};
@@ -71,7 +75,7 @@ pub use maximum_likelihood::{
     Count, Fitted, LAPSE_LARGEST, LIKELIHOOD_DROP_95, Model, Parameter, SLOPE_RANGE, fit, log_likelihood,
 };
 pub use outputs::{Output, write_outputs};
-pub use people::{LoadedSession, Person, Study, Track};
+pub use people::{LoadedSession, Person, Run, Study, Track};
 pub use population::{DETECTIONS, Population, PopulationPoint, SLOPE_CI95, VIEWERS};
 pub use quest_table::{read_quest_config, read_responses, write_summaries};
 pub use report::{REPORT, report_html};
@@ -79,5 +83,5 @@ pub use series::{OriginLine, PersonInSeries, Series};
 pub use simulation::Simulation;
 pub use staircase_figure::{STAIRCASE_FIGURE, staircase_figure};
 pub use study_tables::{THRESHOLDS_TABLE, TRIALS_TABLE, thresholds_csv, trials_csv};
-pub use thresholds::{ConditionThreshold, Threshold, joint_threshold, lapse_of, thresholds_of};
+pub use thresholds::{ConditionThreshold, Threshold, joint_threshold, thresholds_of};
 pub use weibull::Weibull;

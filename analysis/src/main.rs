@@ -171,7 +171,7 @@ fn fit(sessions: &[PathBuf], out: &Path) -> anyhow::Result<()> {
         let mark = if index == analysis.worst { "  <- relation.json" } else { "" };
         println!(
             "{:<22} {:.2} texels, 95 % {low:.2} to {high:.2}; line through the origin {:.2}{mark}",
-            series.name(),
+            series.name,
             series.ratio(),
             series.origin_line.slope,
         );

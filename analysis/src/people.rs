@@ -15,17 +15,36 @@ use scumble_core::SessionHash;
 use scumble_psychophysics::{Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Session, read_session};
 use sha2::{Digest, Sha256};
 
-use crate::Error;
+use crate::{Error, checks::Checks};
 
-/// One person's answers in one condition, in the order of the trials.
+/// The answers that one staircase of one session learned from, in the order of the trials.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Track {
-    /// Pattern, contrast and texel size.
-    pub condition: Condition,
-    /// Intensity `log10(texel / radius)` as shown, and whether the answer was correct.
+pub struct Run {
+    /// Intensity `log10(texel / radius)` as shown, and whether the answer was right.
     pub responses: Vec<(f64, bool)>,
     /// Whether the experiment's convergence rule held at the last trial.
     pub converged: bool,
+}
+
+/// One person's answers in one condition: every staircase of every session.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Track {
+    /// Pattern, contrast, kernel and texel size.
+    pub condition: Condition,
+    /// One a prior and session.
+    pub runs: Vec<Run>,
+}
+
+impl Track {
+    /// Every answer, run after run.
+    pub fn responses(&self) -> impl Iterator<Item = (f64, bool)> {
+        self.runs.iter().flat_map(|run| run.responses.iter().copied())
+    }
+
+    /// Number of runs that met the experiment's convergence rule.
+    pub fn converged(&self) -> usize {
+        self.runs.iter().filter(|run| run.converged).count()
+    }
 }
 
 /// One person.
@@ -33,31 +52,31 @@ pub struct Track {
 pub struct Person {
     /// The participant code.
     pub code: String,
-    /// The answers, in the order of the protocol's conditions.
+    /// The answers that staircases learned from, in the order of the protocol's conditions.
     pub tracks: Vec<Track>,
+    /// The answers to the trials between them.
+    pub checks: Checks,
 }
 
 impl Person {
-    /// The person who answered an experiment.
-    pub fn of(code: &str, experiment: &Experiment) -> Self {
-        let tracks = experiment.tracks().iter().map(|track| Track {
-            condition: *track.condition(),
-            responses: track.responses().to_vec(),
-            converged: track.verdict().is_converged(),
-        });
-        let order = experiment.protocol().conditions();
-        let place = |track: &Track| order.iter().position(|condition| *condition == track.condition);
-        let mut tracks: Vec<Track> = tracks.collect();
-        tracks.sort_by_key(place);
-        Self { code: code.to_owned(), tracks }
+    /// The person who gave the answers `events` in an experiment.
+    pub fn of(code: &str, experiment: &Experiment, events: &[Event]) -> Self {
+        let runs_of = |condition: &Condition| {
+            let here = experiment.tracks().iter().filter(|track| track.condition() == condition);
+            here.map(|track| Run { responses: track.responses().to_vec(), converged: track.verdict().is_converged() })
+                .collect()
+        };
+        let conditions = experiment.protocol().all_conditions().into_iter();
+        let tracks = conditions.map(|condition| Track { runs: runs_of(&condition), condition }).collect();
+        Self { code: code.to_owned(), tracks, checks: Checks::of(events) }
     }
 
     /// Adds the answers of a further session.
     fn append(&mut self, other: Self) {
         for (track, more) in self.tracks.iter_mut().zip(other.tracks) {
-            track.responses.extend(more.responses);
-            track.converged |= more.converged;
+            track.runs.extend(more.runs);
         }
+        self.checks = self.checks + other.checks;
     }
 }
 
@@ -116,7 +135,7 @@ impl Study {
                     progress.round, progress.rounds, progress.trials
                 ));
             }
-            let person = Person::of(&session.header.participant, experiment);
+            let person = Person::of(&session.header.participant, experiment, &session.events);
             match people.get_mut(&person.code) {
                 Some(known) => known.append(person),
                 None => _ = people.insert(person.code.clone(), person),
@@ -129,7 +148,7 @@ impl Study {
     /// Number of measured trials.
     pub fn trial_count(&self) -> usize {
         let tracks = self.people.iter().flat_map(|person| &person.tracks);
-        tracks.map(|track| track.responses.len()).sum()
+        tracks.flat_map(|track| &track.runs).map(|run| run.responses.len()).sum()
     }
 
     /// Whether the answers are those of simulated people.

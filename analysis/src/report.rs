@@ -6,8 +6,10 @@ use std::fmt::Write;
 use crate::{
     Error,
     analysis::{Analysis, SOFTWARE},
+    assumptions::Assumptions,
+    checks::Checks,
     estimate::MeanOverPeople,
-    people::Study,
+    people::{Study, Track},
     population::{DETECTIONS, SLOPE_CI95, VIEWERS},
     series::Series,
 };
@@ -32,6 +34,7 @@ pub fn report_html(study: &Study, analysis: &Analysis, fit: &str, staircases: &s
     page += &form(analysis.worst());
     page += &population(analysis)?;
     page += &people(analysis);
+    page += &detection(study);
     page += &format!("<h2>One person's tracks</h2>\n{staircases}\n");
     page += &left_out(study, analysis);
     page += &method(study, analysis);
@@ -56,14 +59,24 @@ fn result(study: &Study, analysis: &Analysis) -> String {
         "<h1>Radius to texel</h1>\n<p>How large must a filter's radius be, in texels of the shadow \
          map, until the texels under a shadow's edge are hidden?</p>\n{simulated}<div \
          class=\"result\"><b>{:.2} texels</b>95 % interval {low:.2} to {high:.2}. The median \
-         person's threshold ({:.0} % correct with two alternatives) in the worst condition, \
-         <strong>{}</strong>; {} {who} of {}, {} trials.</div>\n",
+         person's threshold in the worst condition, <strong>{}</strong>: {}; {} {who} of {}, \
+         {} trials.</div>\n",
         worst.ratio(),
-        100.0 * study.protocol.threshold_probability,
-        worst.name(),
+        worst.name,
+        threshold_in_words(study),
         worst.log10_ratio.people,
         study.people.len(),
         study.trial_count(),
+    )
+}
+
+/// What the threshold stands for, in terms of any task.
+fn threshold_in_words(study: &Study) -> String {
+    let known = Assumptions::of_protocol(&study.protocol);
+    format!(
+        "the artifact is seen on {:.0} % of the trials, as at {:.0} % correct with two alternatives",
+        100.0 * known.detection_at_threshold,
+        100.0 * known.two_alternative_probability(),
     )
 }
 
@@ -80,7 +93,7 @@ fn conditions(analysis: &Analysis) -> String {
             rows,
             "<tr{class}><td>{}</td><td>{}</td><td>{:.2}</td><td>{low:.2} to {high:.2}</td>\
              <td>{:.2}</td><td>{line_interval}</td><td>{:.3}</td></tr>",
-            series.name(),
+            series.name,
             series.log10_ratio.people,
             series.ratio(),
             line.slope,
@@ -113,7 +126,7 @@ fn form(worst: &Series) -> String {
         "<h2>Is it a line through the origin?</h2>\n<p>For {}. A small p speaks against the \
          relation <i>r = c a</i>; a large one does not prove it.</p>\n<table>\n<tr><th>quantity</th>\
          <th>estimate</th><th>95 %</th><th>p</th></tr>\n{}{}</table>\n",
-        worst.name(),
+        worst.name,
         row("exponent g of r = c a<sup>g</sup>, against 1", worst.exponent, 1.0, ""),
         row("intercept b of r = c a + b, against 0", worst.intercept_px, 0.0, " px"),
     )
@@ -152,12 +165,12 @@ fn population(analysis: &Analysis) -> Result<String, Error> {
 fn people(analysis: &Analysis) -> String {
     let mut codes: Vec<&str> = analysis.thresholds.iter().map(|t| t.person.as_str()).collect();
     codes.dedup();
-    let header: String = analysis.series.iter().map(|series| format!("<th>{}</th>", series.name())).collect();
+    let header: String = analysis.series.iter().map(|series| format!("<th>{}</th>", series.name)).collect();
     let mut rows = String::new();
     for code in codes {
         let own = analysis.thresholds.iter().filter(|entry| entry.person == code);
         let (trials, converged, all) = own.fold((0, 0, 0), |(trials, converged, all), entry| {
-            (trials + entry.trials, converged + usize::from(entry.converged), all + 1)
+            (trials + entry.trials, converged + entry.converged, all + entry.staircases)
         });
         _ = write!(rows, "<tr><td>{code}</td><td>{trials}</td><td>{converged} of {all}</td>");
         for series in &analysis.series {
@@ -178,6 +191,37 @@ fn people(analysis: &Analysis) -> String {
     )
 }
 
+/// What lines alone and catch trials say of each person; nothing where the protocol has neither.
+fn detection(study: &Study) -> String {
+    let total = study.people.iter().fold(Checks::default(), |sum, person| sum + person.checks);
+    if total.lines == 0 && total.catches == 0 {
+        return String::new();
+    }
+    let share = |count: u32, of: u32| match of {
+        0 => "none shown".to_owned(),
+        _ => format!("{count} of {of}"),
+    };
+    let mut rows = String::new();
+    for person in &study.people {
+        let Checks { lines, false_alarms, catches, catches_seen } = person.checks;
+        let answers = || person.tracks.iter().flat_map(Track::responses);
+        let told = answers().filter(|(_, correct)| *correct).count();
+        _ = writeln!(
+            rows,
+            "<tr><td>{}</td><td>{told} of {}</td><td>{}</td><td>{}</td></tr>",
+            person.code,
+            answers().count(),
+            share(false_alarms, lines),
+            share(catches_seen, catches),
+        );
+    }
+    format!(
+        "<h2>Lines and artifacts told apart</h2>\n<div class=\"wide\"><table>\n<tr><th>person</th>\
+         <th>artifacts told</th><th>lines called artifacts</th><th>catch trials right</th></tr>\n{rows}\
+         </table></div>\n"
+    )
+}
+
 fn left_out(study: &Study, analysis: &Analysis) -> String {
     let sentences: Vec<&String> = study.notices.iter().chain(&analysis.exclusions).collect();
     if sentences.is_empty() {
@@ -194,22 +238,35 @@ fn left_out(study: &Study, analysis: &Analysis) -> String {
 
 fn method(study: &Study, analysis: &Analysis) -> String {
     let protocol = &study.protocol;
-    let converged = analysis.thresholds.iter().filter(|entry| entry.converged).count();
+    let known = Assumptions::of_protocol(protocol);
+    let counted = study.people.iter().filter(|person| person.checks.lines > 0).count();
+    let guess = match counted {
+        0 => format!("guess {}", known.guess),
+        _ => format!(
+            "guess rate of each person from the lines called artifacts, (false alarms + 1/2) / (lines + 1) \
+             ({counted} of {} people; {} for the others)",
+            study.people.len(),
+            known.guess
+        ),
+    };
+    let (converged, staircases) = analysis
+        .thresholds
+        .iter()
+        .fold((0, 0), |(converged, staircases), entry| (converged + entry.converged, staircases + entry.staircases));
     format!(
-        "<h2>Method</h2>\n<ul>\n<li>Protocol <i>{}</i>: guess {}, lapses {}, slope {} per decade, \
-         threshold at {} correct. {converged} of {} tracks converged by the experiment's rule; the \
+        "<h2>Method</h2>\n<ul>\n<li>Protocol <i>{}</i>: {guess}, lapses {}, slope {} per decade. \
+         Threshold: {}. {converged} of {staircases} staircases converged by the experiment's rule; the \
          others enter too, because leaving them out would select answers.</li>\n<li>Per person and \
-         condition: maximum-likelihood Weibull function, slope, guess and lapses as in the protocol. \
-         A threshold that the answers do not bound on both sides (95 % likelihood ratio) is \
-         refused.</li>\n<li>Per person, pattern and contrast: one ratio from the answers at all texel \
-         sizes. Over people: mean of its logarithm with Student's t interval.</li>\n<li>Intervals do \
-         not cover a wrong slope, learning, or viewers unlike these.</li>\n</ul>\n",
+         condition: maximum-likelihood Weibull function, its location alone free. A threshold that the \
+         answers do not bound on both sides (95 % likelihood ratio) is refused.</li>\n<li>Per person, \
+         pattern, contrast and kernel: one ratio from the answers at all texel sizes. Over people: mean of \
+         its logarithm with Student's t interval.</li>\n<li>Lines alone, catch trials and practice are \
+         in no threshold.</li>\n<li>Intervals do not cover a wrong slope, learning, or viewers unlike \
+         these.</li>\n</ul>\n",
         escaped(&protocol.name),
-        protocol.guess_probability,
-        protocol.lapse_probability,
-        protocol.slope_per_log10,
-        protocol.threshold_probability,
-        analysis.thresholds.len(),
+        known.blind_share,
+        known.slope,
+        threshold_in_words(study),
     )
 }
 

@@ -1,4 +1,4 @@
-//! A pattern at a contrast, over all people and texel sizes: both estimators of the ratio and the
+//! A pattern at a contrast under a kernel, over all people and texel sizes: both estimators of the ratio and the
 //! tests of the relation's form.
 //!
 //! *Ours*: per person one ratio, by maximum likelihood from the answers at all texel sizes
@@ -12,11 +12,12 @@
 //! *Form*: per person the exponent of `r = c a^g` and the intercept of `r = c a + b`, each tested over
 //! people with Student's t. One slope per person keeps the sizes' different errors out of the test.
 
-use scumble_psychophysics::Protocol;
-use scumble_stimuli::Pattern;
+use scumble_psychophysics::{Condition, Protocol, Round};
+use scumble_stimuli::{Kernel, Pattern};
 
 use crate::{
     Error,
+    assumptions::Assumptions,
     estimate::{MeanOverPeople, SizePoint, exponent, intercept_px, line_through_origin},
     people::{Person, Track},
     thresholds::{joint_threshold, thresholds_of},
@@ -45,13 +46,13 @@ pub struct OriginLine {
     pub over_people: Option<MeanOverPeople>,
 }
 
-/// A pattern at a contrast.
+/// A pattern at a contrast under a kernel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// The pattern.
-    pub pattern: Pattern,
-    /// Linear light of the lit side, 0..1.
-    pub contrast: f64,
+    /// The pattern, contrast and kernel.
+    pub round: Round,
+    /// `step, 100 % contrast`, and the kernel where the study has several.
+    pub name: String,
     /// Texel sizes, pixels, ascending.
     pub texels_px: Vec<f64>,
     /// People with at least one threshold here.
@@ -67,18 +68,18 @@ pub struct Series {
 }
 
 impl Series {
-    /// The series of `pattern` at `contrast`. People whose answers do not carry a ratio are left out.
+    /// The series of a round. People whose answers do not carry a ratio are left out.
     ///
     /// # Errors
     /// Fewer than two people have a ratio here.
-    pub fn of(pattern: Pattern, contrast: f64, people: &[Person], protocol: &Protocol) -> Result<Self, Error> {
-        let mut texels_px = protocol.texels_px.clone();
+    pub fn of(round: Round, people: &[Person], protocol: &Protocol) -> Result<Self, Error> {
+        let mut texels_px = protocol.conditions.texels_px.clone();
         texels_px.sort_by(f64::total_cmp);
-        let people: Vec<_> =
-            people.iter().filter_map(|person| person_in_series(pattern, contrast, person, protocol)).collect();
+        let name = series_name(round, protocol);
+        let people: Vec<_> = people.iter().filter_map(|person| person_in_series(round, person, protocol)).collect();
         let ratios: Vec<f64> = people.iter().map(|person| person.log10_ratio).collect();
         let log10_ratio = MeanOverPeople::of(&ratios).map_err(|reason| match reason {
-            Error::CannotFit(reason) => Error::CannotFit(format!("{}: {reason}", series_name(pattern, contrast))),
+            Error::CannotFit(reason) => Error::CannotFit(format!("{name}: {reason}")),
             other => other,
         })?;
         let over_people = |statistic: fn(&[SizePoint]) -> Option<f64>| {
@@ -86,8 +87,8 @@ impl Series {
             MeanOverPeople::of(&values).ok()
         };
         Ok(Self {
-            pattern,
-            contrast,
+            round,
+            name,
             log10_ratio,
             origin_line: origin_line(&people, &texels_px)?,
             exponent: over_people(exponent),
@@ -95,11 +96,6 @@ impl Series {
             texels_px,
             people,
         })
-    }
-
-    /// `step, 100 % contrast`.
-    pub fn name(&self) -> String {
-        series_name(self.pattern, self.contrast)
     }
 
     /// The median person's ratio at threshold, radius in texels.
@@ -124,9 +120,14 @@ impl Series {
     }
 }
 
-/// `step, 100 % contrast`.
-pub(crate) fn series_name(pattern: Pattern, contrast: f64) -> String {
-    format!("{}, {} % contrast", pattern_name(pattern), (contrast * 1000.0).round() / 10.0)
+/// `step, 100 % contrast`, and the kernel where the study has several.
+pub(crate) fn series_name(round: Round, protocol: &Protocol) -> String {
+    let Round { pattern, contrast, kernel } = round;
+    let name = format!("{}, {} % contrast", pattern_name(pattern), (contrast * 1000.0).round() / 10.0);
+    match protocol.conditions.kernels.len() {
+        1 => name,
+        _ => format!("{name}, {}", kernel_name(kernel)),
+    }
 }
 
 /// The pattern's word in files.
@@ -138,9 +139,21 @@ pub(crate) fn pattern_name(pattern: Pattern) -> &'static str {
     }
 }
 
-fn person_in_series(pattern: Pattern, contrast: f64, person: &Person, protocol: &Protocol) -> Option<PersonInSeries> {
-    let is_here = |track: &&Track| track.condition.pattern == pattern && track.condition.contrast == contrast;
-    let joint = joint_threshold(person.tracks.iter().filter(is_here), protocol).ok()?;
+/// The kernel's word in files.
+pub(crate) fn kernel_name(kernel: Kernel) -> &'static str {
+    let named = Kernel::NAMED.iter().find(|(_, named)| *named == kernel);
+    named.map_or("unnamed", |(name, _)| *name)
+}
+
+/// The round in which a condition is measured.
+pub(crate) fn round_of(condition: &Condition) -> Round {
+    Round { pattern: condition.pattern, contrast: condition.contrast, kernel: condition.kernel }
+}
+
+fn person_in_series(round: Round, person: &Person, protocol: &Protocol) -> Option<PersonInSeries> {
+    let is_here = |track: &&Track| round_of(&track.condition) == round;
+    let known = Assumptions::of_person(person, protocol);
+    let joint = joint_threshold(person.tracks.iter().filter(is_here), &known).ok()?;
     let points = thresholds_of(person, protocol)
         .iter()
         .zip(&person.tracks)

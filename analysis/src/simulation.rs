@@ -57,19 +57,17 @@ impl Simulation {
         Ok(())
     }
 
-    /// Lets person `index` run the whole experiment; `record` gets every event in order.
+    /// Lets person `index` run the whole experiment, and gives its end and every event in order.
     ///
     /// # Errors
-    /// Those of the experiment and of `record`.
-    pub fn run(&self, index: u32, mut record: impl FnMut(&Event) -> Result<(), Error>) -> Result<Experiment, Error> {
+    /// Those of the experiment.
+    pub fn run(&self, index: u32) -> Result<(Experiment, Vec<Event>), Error> {
         let observer = self.population().person(index)?;
         let seed = self.population().session_seed(index);
-        let mut experiment = Experiment::new(self.protocol.clone(), seed)?;
-        for event in rehearse(&mut experiment, &observer)? {
-            record(&event)?;
-        }
-        record(&Event::End(Moment { at: Timestamp::UNIX_EPOCH, notes: Vec::new() }))?;
-        Ok(experiment)
+        let mut experiment = Experiment::new(self.protocol.clone(), seed, index + 1)?;
+        let mut events = rehearse(&mut experiment, &observer)?;
+        events.push(Event::End(Moment { at: Timestamp::UNIX_EPOCH, notes: Vec::new() }));
+        Ok((experiment, events))
     }
 
     /// The study in memory, without files.
@@ -79,12 +77,12 @@ impl Simulation {
     pub fn study(&self) -> Result<Study, Error> {
         self.check()?;
         let person = |index| {
-            let experiment = self.run(index, |_| Ok(()))?;
-            Ok(Person::of(&code(index), &experiment))
+            let (experiment, events) = self.run(index)?;
+            Ok(Person::of(&code(index), &experiment, &events))
         };
         Ok(Study {
             protocol: self.protocol.clone(),
-            people: (0..self.observers).map(person).collect::<Result<_, Error>>()?,
+            people: (0..self.observers).into_par_iter().map(person).collect::<Result<_, Error>>()?,
             sessions: Vec::new(),
             notices: Vec::new(),
         })
@@ -104,7 +102,8 @@ impl Simulation {
         (0..self.observers).into_par_iter().zip(&directories).try_for_each(
             |(index, directory)| -> Result<(), Error> {
                 let mut writer = SessionWriter::create(directory, &self.header(index)?)?;
-                self.run(index, |event| Ok(writer.append(event)?))?;
+                let (_, events) = self.run(index)?;
+                events.iter().try_for_each(|event| writer.append(event))?;
                 finished();
                 Ok(())
             },
@@ -129,7 +128,7 @@ impl Simulation {
     }
 }
 
-/// Participant code and folder of person `index`.
+/// Participant code and folder of person `index`, whose number in the study is `index + 1`.
 fn code(index: u32) -> String {
     format!("sim-{:04}", index + 1)
 }

@@ -1,5 +1,6 @@
 //! One person's QUEST tracks: the ratio shown on each trial, the answers, and the thresholds that the
-//! maximum-likelihood fit makes of them. One panel per pattern and contrast.
+//! maximum-likelihood fit makes of them. One panel per pattern, contrast and
+//! kernel; staircases of one condition share its colour.
 
 use plotters::{coord::Shift, prelude::*};
 use scumble_psychophysics::Protocol;
@@ -8,7 +9,7 @@ use crate::{
     Error,
     figure::{DrawError, GREY, GRID, INK, SIZES, svg, text},
     people::{Person, Track},
-    series::series_name,
+    series::{round_of, series_name},
     thresholds::{ConditionThreshold, thresholds_of},
 };
 
@@ -24,7 +25,7 @@ const HEAD_PX: u32 = 64;
 /// Only the plotting library's own.
 pub fn staircase_figure(person: &Person, protocol: &Protocol) -> Result<String, Error> {
     let rounds = protocol.rounds();
-    let columns = protocol.contrasts.len().max(1);
+    let columns = (protocol.conditions.contrasts.len() * protocol.conditions.kernels.len()).max(1);
     let rows = rounds.len().div_ceil(columns).max(1);
     let size_px = (PANEL_PX.0 * columns as u32, HEAD_PX + PANEL_PX.1 * rows as u32);
     let title = format!("QUEST tracks of {}", person.code);
@@ -32,15 +33,14 @@ pub fn staircase_figure(person: &Person, protocol: &Protocol) -> Result<String, 
         let (head, panels) = page.split_vertically(HEAD_PX);
         draw_key(&head, &title, protocol)?;
         let thresholds = thresholds_of(person, protocol);
-        for (panel, (pattern, contrast)) in panels.split_evenly((rows, columns)).iter().zip(rounds) {
+        for (panel, round) in panels.split_evenly((rows, columns)).iter().zip(rounds) {
             let tracks: Vec<(&Track, &ConditionThreshold)> = person
                 .tracks
                 .iter()
                 .zip(&thresholds)
-                .filter(|(track, _)| track.condition.pattern == pattern)
-                .filter(|(track, _)| track.condition.contrast == contrast)
+                .filter(|(track, _)| round_of(&track.condition) == round)
                 .collect();
-            draw_panel(panel, &series_name(pattern, contrast), &tracks, person)?;
+            draw_panel(panel, &series_name(round, protocol), &tracks, person)?;
         }
         Ok(())
     })
@@ -49,10 +49,10 @@ pub fn staircase_figure(person: &Person, protocol: &Protocol) -> Result<String, 
 /// Smallest and largest ratio of a person's trials, widened to the next power of two, and the number
 /// of trials of the longest track: the axes that all panels share.
 fn limits(person: &Person) -> ((f64, f64), f64) {
-    let exponents =
-        person.tracks.iter().flat_map(|track| &track.responses).map(|(x, _)| -x / std::f64::consts::LOG10_2);
+    let exponents = person.tracks.iter().flat_map(Track::responses).map(|(x, _)| -x / std::f64::consts::LOG10_2);
     let (low, high) = exponents.fold((0.0_f64, 3.0_f64), |(low, high), e| (low.min(e), high.max(e)));
-    let longest = person.tracks.iter().map(|track| track.responses.len()).max().unwrap_or(0);
+    let runs = person.tracks.iter().flat_map(|track| &track.runs);
+    let longest = runs.map(|run| run.responses.len()).max().unwrap_or(0);
     ((low.floor().exp2(), high.ceil().exp2()), longest as f64)
 }
 
@@ -87,15 +87,17 @@ fn draw_panel(
 
     for (index, (track, threshold)) in tracks.iter().enumerate() {
         let color = SIZES[index % SIZES.len()];
-        let shown = track.responses.iter().zip(1..);
-        let places: Vec<((f64, f64), bool)> =
-            shown.map(|(&(x, correct), trial)| ((f64::from(trial), 10_f64.powf(-x)), correct)).collect();
-        let path = places.iter().map(|(place, _)| *place);
-        chart.draw_series(LineSeries::new(path, color.mix(0.6).stroke_width(1)))?;
-        for (place, correct) in places {
-            let fill = if correct { color } else { WHITE };
-            chart.draw_series([Circle::new(place, 4, fill.filled())])?;
-            chart.draw_series([Circle::new(place, 4, color.stroke_width(2))])?;
+        for run in &track.runs {
+            let shown = run.responses.iter().zip(1..);
+            let places: Vec<((f64, f64), bool)> =
+                shown.map(|(&(x, correct), trial)| ((f64::from(trial), 10_f64.powf(-x)), correct)).collect();
+            let path = places.iter().map(|(place, _)| *place);
+            chart.draw_series(LineSeries::new(path, color.mix(0.6).stroke_width(1)))?;
+            for (place, correct) in places {
+                let fill = if correct { color } else { WHITE };
+                chart.draw_series([Circle::new(place, 4, fill.filled())])?;
+                chart.draw_series([Circle::new(place, 4, color.stroke_width(2))])?;
+            }
         }
         // The threshold with one standard error, right of the track.
         let Ok(threshold) = threshold.threshold else { continue };
@@ -113,7 +115,7 @@ fn draw_panel(
 fn draw_key(head: &DrawingArea<SVGBackend<'_>, Shift>, title: &str, protocol: &Protocol) -> Result<(), DrawError> {
     head.draw(&Text::new(title.to_owned(), (22, 10), text(20, INK)))?;
     let mut x = 28;
-    for (texel_px, color) in protocol.texels_px.iter().zip(SIZES) {
+    for (texel_px, color) in protocol.conditions.texels_px.iter().zip(SIZES) {
         head.draw(&Circle::new((x, 50), 5, color.filled()))?;
         head.draw(&Text::new(format!("texel {texel_px} px"), (x + 11, 43), text(14, INK)))?;
         x += 105;

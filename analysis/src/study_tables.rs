@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use scumble_psychophysics::{Answer, Role};
 use serde::Serialize;
 
 use crate::{
     Error,
     people::{Study, directory_name},
-    series::pattern_name,
+    series::{kernel_name, pattern_name},
     thresholds::ConditionThreshold,
 };
 
@@ -16,9 +17,9 @@ pub const TRIALS_TABLE: &str = "trials.csv";
 /// File name of the table of thresholds.
 pub const THRESHOLDS_TABLE: &str = "thresholds.csv";
 /// Beginning of the header of [`TRIALS_TABLE`], by which a re-run knows its own file.
-pub const TRIALS_MARK: &str = "person,session,trial,round,pattern,contrast,texel_px,radius_px";
+pub const TRIALS_MARK: &str = "person,session,trial,round,role,track,pattern,contrast,kernel,texel_px,radius_px";
 /// Beginning of the header of [`THRESHOLDS_TABLE`].
-pub const THRESHOLDS_MARK: &str = "person,pattern,contrast,texel_px,trials,correct,converged";
+pub const THRESHOLDS_MARK: &str = "person,pattern,contrast,kernel,texel_px,trials,correct,staircases,converged";
 
 #[derive(Serialize)]
 struct TrialRow<'a> {
@@ -26,13 +27,16 @@ struct TrialRow<'a> {
     session: &'a str,
     trial: u32,
     round: u32,
+    role: &'static str,
+    track: Option<u32>,
     pattern: &'static str,
     contrast: f64,
+    kernel: &'static str,
     texel_px: f64,
     radius_px: f64,
     ratio: f64,
     clamped: u8,
-    line_side: &'static str,
+    right_answer: &'static str,
     answer: &'static str,
     correct: u8,
     response_time_secs: f64,
@@ -43,10 +47,12 @@ struct ThresholdRow<'a> {
     person: &'a str,
     pattern: &'static str,
     contrast: f64,
+    kernel: &'static str,
     texel_px: f64,
     trials: usize,
     correct: usize,
-    converged: u8,
+    staircases: usize,
+    converged: usize,
     ratio: Option<f64>,
     log10_ratio: Option<f64>,
     standard_error_log10: Option<f64>,
@@ -54,23 +60,20 @@ struct ThresholdRow<'a> {
     reason: String,
 }
 
-/// All measured trials as CSV: tidy, one row a trial, practice left out.
+/// All answers after practice as CSV: tidy, one row a trial. Thresholds use the rows whose role is
+/// `measure`; `track` is the staircase of the session, counted from 0, and empty for a catch trial.
 ///
 /// # Errors
 /// The writer's.
 pub fn trials_csv(study: &Study) -> Result<String, Error> {
-    use scumble_psychophysics::Side;
-    let side = |side| match side {
-        Side::Left => "left",
-        Side::Right => "right",
-    };
     let rows = study.sessions.iter().flat_map(|loaded| {
         let session = &loaded.session;
         let name = directory_name(&session.directory);
         session
             .events
             .iter()
-            .filter_map(|event| event.measured())
+            .filter_map(|event| event.answered())
+            .filter(|answered| answered.trial.role != Role::Practice)
             .map(move |answered| (session.header.participant.as_str(), name.clone(), answered))
     });
     let mut writer = csv::Writer::from_writer(Vec::new());
@@ -81,14 +84,17 @@ pub fn trials_csv(study: &Study) -> Result<String, Error> {
             session: &session,
             trial: trial.number,
             round: trial.round,
+            role: role_name(trial.role),
+            track: trial.track,
             pattern: pattern_name(trial.condition.pattern),
             contrast: trial.condition.contrast,
+            kernel: kernel_name(trial.condition.kernel),
             texel_px: trial.condition.texel_px,
             radius_px: trial.radius_px,
             ratio: trial.ratio(),
             clamped: trial.is_clamped().into(),
-            line_side: side(trial.line_side),
-            answer: side(answered.answer),
+            right_answer: answer_name(trial.pictures.right_answer()),
+            answer: answer_name(answered.answer),
             correct: answered.correct.into(),
             response_time_secs: answered.response_time_secs,
         };
@@ -109,10 +115,12 @@ pub fn thresholds_csv(thresholds: &[ConditionThreshold]) -> Result<String, Error
             person: &entry.person,
             pattern: pattern_name(entry.condition.pattern),
             contrast: entry.condition.contrast,
+            kernel: kernel_name(entry.condition.kernel),
             texel_px: entry.condition.texel_px,
             trials: entry.trials,
             correct: entry.correct,
-            converged: entry.converged.into(),
+            staircases: entry.staircases,
+            converged: entry.converged,
             ratio: found.map(|threshold| threshold.ratio()),
             log10_ratio: found.map(|threshold| threshold.log10_ratio),
             standard_error_log10: found.map(|threshold| threshold.standard_error_log10),
@@ -122,6 +130,24 @@ pub fn thresholds_csv(thresholds: &[ConditionThreshold]) -> Result<String, Error
         writer.serialize(row).map_err(|error| table_error(THRESHOLDS_TABLE, error))?;
     }
     finish(THRESHOLDS_TABLE, writer)
+}
+
+fn role_name(role: Role) -> &'static str {
+    match role {
+        Role::Practice => "practice",
+        Role::Measure => "measure",
+        Role::Line => "line",
+        Role::Catch => "catch",
+    }
+}
+
+fn answer_name(answer: Answer) -> &'static str {
+    match answer {
+        Answer::Left => "left",
+        Answer::Right => "right",
+        Answer::Yes => "yes",
+        Answer::No => "no",
+    }
 }
 
 fn table_error(name: &str, error: csv::Error) -> Error {

@@ -1,9 +1,9 @@
 //! One threshold per person and condition: the maximum-likelihood Weibull function at the slope,
-//! guess and lapse rates of the protocol.
+//! guess and lapse rates that [`Assumptions`] name.
 //!
 //! The intensity is QUEST's, `x = log10(texel / radius) = -log10(ratio)`: the larger the radius, the
-//! harder it is to find the line. QUEST mixes lapses with weight `delta`, so the upper asymptote
-//! lies `delta (1 - guess)` below 1. The threshold is the ratio at the protocol's threshold probability.
+//! harder it is to tell an artifact from a line. The threshold is the ratio at which the artifact is seen in
+//! the share of trials that the protocol's threshold stands for, whatever the person's guess rate.
 //!
 //! The slope is not fitted: 10 to 28 adaptive answers a condition sit at one or two intensities and
 //! bound a location, not a slope. A wrong slope hardly moves the threshold, because QUEST places
@@ -12,8 +12,9 @@
 use scumble_psychophysics::{Condition, Protocol};
 
 use crate::{
+    assumptions::Assumptions,
     error::Unidentified,
-    maximum_likelihood::{Count, Model, Parameter, fit},
+    maximum_likelihood::{Count, fit},
     people::{Person, Track},
 };
 
@@ -38,14 +39,16 @@ impl Threshold {
 pub struct ConditionThreshold {
     /// The person's code.
     pub person: String,
-    /// Pattern, contrast and texel size.
+    /// Pattern, contrast, kernel and texel size.
     pub condition: Condition,
     /// Number of answers.
     pub trials: usize,
     /// Number of correct answers.
     pub correct: usize,
-    /// Whether the experiment's own convergence rule held at the last trial.
-    pub converged: bool,
+    /// Number of staircases.
+    pub staircases: usize,
+    /// Number of them that met the experiment's own convergence rule at their last trial.
+    pub converged: usize,
     /// The threshold, or why the answers do not carry one.
     pub threshold: Result<Threshold, Unidentified>,
 }
@@ -57,17 +60,13 @@ impl ConditionThreshold {
     }
 }
 
-/// Upper asymptote's distance from 1 in the protocol's psychometric function.
-pub fn lapse_of(protocol: &Protocol) -> f64 {
-    protocol.lapse_probability * (1.0 - protocol.guess_probability)
-}
-
 /// The thresholds of a person, one per track.
 pub fn thresholds_of(person: &Person, protocol: &Protocol) -> Vec<ConditionThreshold> {
-    person.tracks.iter().map(|track| threshold_of(&person.code, track, protocol)).collect()
+    let known = Assumptions::of_person(person, protocol);
+    person.tracks.iter().map(|track| threshold_of(&person.code, track, &known)).collect()
 }
 
-/// One threshold of a person for a pattern at a contrast: all texel sizes in one likelihood, at one
+/// One threshold of a person for a pattern at a contrast under a kernel: all texel sizes in one likelihood, at one
 /// ratio, which is the relation `r = c a` itself.
 ///
 /// A maximum-likelihood location from `n` adaptive answers is off by a term of order `1 / n`: the mean of
@@ -78,31 +77,27 @@ pub fn thresholds_of(person: &Person, protocol: &Protocol) -> Vec<ConditionThres
 /// Why the answers do not carry a threshold.
 pub fn joint_threshold<'a>(
     tracks: impl IntoIterator<Item = &'a Track>,
-    protocol: &Protocol,
+    known: &Assumptions,
 ) -> Result<Threshold, Unidentified> {
     let counts: Vec<Count> = tracks
         .into_iter()
-        .flat_map(|track| &track.responses)
-        .map(|&(x, correct)| Count { x, correct: f64::from(u8::from(correct)), total: 1.0 })
+        .flat_map(Track::responses)
+        .map(|(x, correct)| Count { x, correct: f64::from(u8::from(correct)), total: 1.0 })
         .collect();
-    let model = Model {
-        guess: protocol.guess_probability,
-        lapse: Parameter::Fixed(lapse_of(protocol)),
-        slope: Parameter::Fixed(protocol.slope_per_log10),
-    };
-    let fitted = fit(&counts, &model)?;
-    let x = fitted.weibull.x_at_correct(protocol.threshold_probability);
+    let fitted = fit(&counts, &known.model())?;
+    let x = fitted.weibull.x_at_detection(known.seen_at_threshold());
     let log10_ratio = -x.ok_or(Unidentified::FlatLikelihood)?;
     Ok(Threshold { log10_ratio, standard_error_log10: fitted.location_se })
 }
 
-fn threshold_of(person: &str, track: &Track, protocol: &Protocol) -> ConditionThreshold {
+fn threshold_of(person: &str, track: &Track, known: &Assumptions) -> ConditionThreshold {
     ConditionThreshold {
         person: person.to_owned(),
         condition: track.condition,
-        trials: track.responses.len(),
-        correct: track.responses.iter().filter(|(_, correct)| *correct).count(),
-        converged: track.converged,
-        threshold: joint_threshold([track], protocol),
+        trials: track.responses().count(),
+        correct: track.responses().filter(|(_, correct)| *correct).count(),
+        staircases: track.runs.len(),
+        converged: track.converged(),
+        threshold: joint_threshold([track], known),
     }
 }

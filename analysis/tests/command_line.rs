@@ -126,7 +126,7 @@ fn what_is_wrong_takes_one_line_and_exit_status_1() {
         (&["quest", "--config", path(&config), "--responses", path(&infinite)], "line 2"),
         (
             &["simulate", "--out", path(&out), "--observers", "2", "--seed", "1", "--protocol", "x"],
-            "allowed is two-alternative",
+            "allowed is published, two-alternative, yes-no",
         ),
     ];
     for (arguments, expected) in cases {

@@ -5,9 +5,10 @@
 
 use std::{fs, path::Path};
 
-use scumble_analysis::{Analysis, Error, Person, RELATION, REPORT, Simulation, Study, fit_study};
+use scumble_analysis::{Analysis, Error, Person, RELATION, REPORT, Run, Simulation, Study, fit_study};
 use scumble_core::{Relation, RelationFile};
 use scumble_psychophysics::{EVENTS_FILE, HEADER_FILE, ObserverParameters, Protocol};
+use scumble_stimuli::Kernel;
 
 fn simulation(observers: u32, seed: u64) -> Simulation {
     Simulation {
@@ -24,6 +25,11 @@ fn sessions() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     simulation(3, 7).write(folder.path(), || ()).unwrap();
     folder
+}
+
+/// Every staircase of everyone.
+fn runs(people: &mut [Person]) -> impl Iterator<Item = &mut Run> {
+    people.iter_mut().flat_map(|person| &mut person.tracks).flat_map(|track| &mut track.runs)
 }
 
 fn read(folder: &Path) -> Result<Study, Error> {
@@ -49,7 +55,7 @@ fn twelve_observers_give_back_their_ratio_within_15_percent() {
         let analysis = Analysis::of(&simulation(12, seed).study().unwrap()).unwrap();
         let ratio = analysis.worst().ratio();
         assert!((ratio / 3.47 - 1.0).abs() < 0.15, "seed {seed}: {ratio}");
-        let stair = analysis.series.iter().find(|s| s.name() == "stair, 100 % contrast").unwrap();
+        let stair = analysis.series.iter().find(|s| s.name == "stair, 100 % contrast").unwrap();
         assert!((stair.ratio() / 2.5 - 1.0).abs() < 0.15, "seed {seed}: {}", stair.ratio());
     }
 }
@@ -60,7 +66,7 @@ fn over_forty_cohorts_the_bias_is_small_and_the_interval_covers() {
     let (mut sum_log10, mut covered) = (0.0, 0);
     for seed in 0..cohorts {
         let analysis = Analysis::of(&simulation(8, 1000 + seed).study().unwrap()).unwrap();
-        let step = analysis.series.iter().find(|s| s.name() == "step, 100 % contrast").unwrap();
+        let step = analysis.series.iter().find(|s| s.name == "step, 100 % contrast").unwrap();
         sum_log10 += step.log10_ratio.mean - 3.47_f64.log10();
         let [low, high] = step.ratio_ci95();
         covered += u32::from(low < 3.47 && 3.47 < high);
@@ -165,9 +171,8 @@ fn one_person_is_refused_because_no_interval_follows() {
 fn people_who_always_guess_or_never_err_carry_no_fit() {
     for answer in [Some(true), Some(false), None] {
         let mut study = simulation(3, 5).study().unwrap();
-        let tracks = study.people.iter_mut().flat_map(|person| &mut person.tracks);
-        for track in tracks {
-            let responses = track.responses.iter_mut().enumerate();
+        for run in runs(&mut study.people) {
+            let responses = run.responses.iter_mut().enumerate();
             responses.for_each(|(i, (_, correct))| *correct = answer.unwrap_or(i % 2 == 0));
         }
         let message = Analysis::of(&study).unwrap_err().to_string();
@@ -178,16 +183,15 @@ fn people_who_always_guess_or_never_err_carry_no_fit() {
 #[test]
 fn a_study_in_which_nothing_converged_is_refused() {
     let mut study = simulation(3, 5).study().unwrap();
-    study.people.iter_mut().flat_map(|p| &mut p.tracks).for_each(|track| track.converged = false);
+    runs(&mut study.people).for_each(|run| run.converged = false);
     let message = Analysis::of(&study).unwrap_err().to_string();
-    assert!(message.contains("none of 36 conditions converged in any of 3 people"), "{message}");
+    assert!(message.contains("none of 36 staircases converged in any of 3 people"), "{message}");
 }
 
 #[test]
 fn a_condition_without_a_threshold_is_left_out_with_its_reason() {
     let mut study = simulation(4, 5).study().unwrap();
-    let person: &mut Person = &mut study.people[0];
-    person.tracks[0].responses.iter_mut().for_each(|(_, correct)| *correct = true);
+    study.people[0].tracks[0].runs[0].responses.iter_mut().for_each(|(_, correct)| *correct = true);
     let analysis = Analysis::of(&study).unwrap();
     let named = |s: &&String| s.starts_with("sim-0001, stair, 100 %") && s.contains("were correct");
     assert_eq!(analysis.exclusions.iter().filter(named).count(), 1, "{:?}", analysis.exclusions);
@@ -250,7 +254,7 @@ fn a_copy_of_a_session_and_another_protocol_are_refused() {
 
     let folder = sessions();
     let mut other = simulation(1, 11);
-    other.protocol.trials_max += 1;
+    other.protocol.schedule.trials_max += 1;
     other.write(&folder.path().join("sub"), || ()).unwrap();
     let paths = [folder.path().to_path_buf(), folder.path().join("sub")];
     let message = Study::read(&paths).unwrap_err().to_string();
@@ -276,5 +280,82 @@ fn options_out_of_range_are_refused_by_name() {
     for (case, name) in cases {
         let message = case.check().unwrap_err().to_string();
         assert!(message.contains(name) && message.contains("allowed"), "{message}");
+    }
+}
+
+/// A study of a shipped protocol, changed.
+fn changed(name: &str, observers: u32, change: impl Fn(&mut Protocol)) -> Simulation {
+    let mut simulation = simulation(observers, 3);
+    simulation.protocol = Protocol::named(name).unwrap();
+    change(&mut simulation.protocol);
+    simulation
+}
+
+#[test]
+fn two_staircases_of_one_condition_are_one_track_with_all_answers() {
+    let two_priors = |protocol: &mut Protocol| protocol.staircase.prior_ratios = vec![1.5, 6.0];
+    let study = changed("two-alternative", 3, two_priors).study().unwrap();
+    let person = &study.people[0];
+    assert_eq!(person.tracks.len(), 12);
+    assert!(person.tracks.iter().all(|track| track.runs.len() == 2));
+    let analysis = Analysis::of(&study).unwrap();
+    let threshold = &analysis.thresholds[0];
+    let answers: usize = person.tracks[0].runs.iter().map(|run| run.responses.len()).sum();
+    assert_eq!((threshold.trials, threshold.staircases), (answers, 2));
+}
+
+#[test]
+fn kernels_are_told_apart_and_the_relation_is_of_the_first() {
+    let two_kernels = |protocol: &mut Protocol| {
+        protocol.conditions.kernels = vec![Kernel::Box, Kernel::Disc];
+        protocol.conditions.contrasts = vec![1.0];
+    };
+    let study = changed("two-alternative", 4, two_kernels).study().unwrap();
+    let analysis = Analysis::of(&study).unwrap();
+    let names: Vec<&str> = analysis.series.iter().map(|series| series.name.as_str()).collect();
+    assert_eq!(names.len(), 4);
+    assert!(names.contains(&"step, 100 % contrast, box") && names.contains(&"stair, 100 % contrast, disc"));
+    let file = analysis.relation_file(&study).unwrap();
+    assert_eq!(file.kernel.as_deref(), Some("box"));
+    assert_eq!(analysis.worst().round.kernel, Kernel::Box);
+}
+
+#[test]
+fn a_yes_no_study_counts_false_alarms_and_keeps_lines_and_catch_trials_out_of_the_thresholds() {
+    let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    changed("yes-no", 3, |_| ()).write(folder.path(), || ()).unwrap();
+    let study = read(folder.path()).unwrap();
+    fit_study(&study, out.path()).unwrap();
+
+    let table = fs::read_to_string(out.path().join("trials.csv")).unwrap();
+    let with_role = |role: &str| table.lines().filter(|line| line.contains(&format!(",{role},"))).count();
+    assert_eq!(with_role("measure"), study.trial_count());
+    let sum = |of: fn(&Person) -> u32| study.people.iter().map(of).sum::<u32>() as usize;
+    assert_eq!(with_role("line"), sum(|person| person.checks.lines));
+    assert_eq!(with_role("catch"), sum(|person| person.checks.catches));
+    assert!(with_role("line") > 100 && with_role("catch") > 0 && with_role("practice") == 0);
+
+    let page = fs::read_to_string(out.path().join(REPORT)).unwrap();
+    assert!(page.contains("Lines and artifacts told apart") && page.contains("guess rate of each person"));
+}
+
+#[test]
+fn people_who_often_call_a_line_an_artifact_have_the_threshold_of_those_who_do_not() {
+    for rate in [0.03, 0.3] {
+        let mut sum_log10 = 0.0;
+        for seed in 0..6 {
+            let mut simulation = changed("yes-no", 10, |_| ());
+            simulation.seed = seed;
+            simulation.median.false_alarm_probability = rate;
+            let study = simulation.study().unwrap();
+            let rates: Vec<f64> = study.people.iter().filter_map(|person| person.checks.false_alarm_rate()).collect();
+            let counted = rates.iter().sum::<f64>() / 10.0;
+            // Some 1300 lines: standard error 0.013 at most.
+            assert!((counted - rate).abs() < 0.04, "{counted} is not {rate}");
+            sum_log10 += Analysis::of(&study).unwrap().worst().ratio().log10();
+        }
+        // The RMS error of a cohort is 0.04 log10, so the mean of six is known to 0.016: 3 of these.
+        let bias_log10 = sum_log10 / 6.0 - 3.47_f64.log10();
+        assert!(bias_log10.abs() < 0.05, "false alarms {rate}: {bias_log10}");
     }
 }

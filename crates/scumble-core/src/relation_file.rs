@@ -91,10 +91,13 @@ pub struct NullTest {
 /// The ratio in one condition.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ConditionEstimate {
-    /// `stair` or `step`.
+    /// `stair`, `step` or `double_step`.
     pub pattern: String,
     /// 0..1, of linear luminance.
     pub contrast: f64,
+    /// Kernel that the ratio holds for, where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kernel: Option<String>,
     /// Filter radius in texels.
     pub ratio: Estimate,
 }
