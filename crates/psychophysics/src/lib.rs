@@ -61,7 +61,7 @@ mod timetable;
 mod track;
 mod trial;
 
-pub use convergence::{Convergence, Verdict};
+pub use convergence::{Convergence, Reason, Verdict};
 pub use error::Error;
 pub use event::{Answered, Event, Moment, Reply};
 pub use experiment::{Experiment, Progress, Stage};

@@ -45,7 +45,12 @@ impl Protocol {
     pub fn from_toml(path: &Path, text: &str) -> Result<Self, Error> {
         let protocol: Self = toml::from_str(text).map_err(|error| {
             let line = line_of(text.as_bytes(), error.span().map_or(0, |span| span.start));
-            damaged(path, line, error.message(), "the keys of the protocols that come with the program, each with its unit")
+            damaged(
+                path,
+                line,
+                error.message(),
+                "the keys of the protocols that come with the program, each with its unit",
+            )
         })?;
         match protocol.check() {
             Err(Error::Parameter { field, value, allowed }) => {

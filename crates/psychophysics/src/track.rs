@@ -6,20 +6,20 @@ use crate::convergence::Verdict;
 use crate::error::Error;
 use crate::protocol::Protocol;
 use crate::quest::Quest;
+use crate::staircase::Staircase;
 use crate::trial::{Condition, Trial};
 
 /// One staircase among the session's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     condition: Condition,
-    prior: Quest,
-    quest: Quest,
+    staircase: Staircase,
     responses: Vec<(f64, bool)>,
     verdict: Verdict,
     done: bool,
 }
 
-/// The state of a QUEST in terms of the ratio, the radius in texels.
+/// The state of a staircase in terms of the ratio, the radius in texels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// 10 to the posterior's mean log10 ratio.
@@ -31,26 +31,27 @@ pub struct Estimate {
 }
 
 impl Track {
-    /// A QUEST at its prior.
+    /// A staircase at its prior.
     pub(crate) fn new(protocol: &Protocol, condition: Condition, prior_ratio: f64) -> Result<Self, Error> {
-        let prior = Quest::new(protocol.quest_config(prior_ratio))?;
-        let verdict = protocol.convergence.judge(&prior, &prior, &[], intensity_range(protocol, &condition))?;
-        Ok(Self { condition, quest: prior.clone(), prior, responses: Vec::new(), verdict, done: false })
+        let staircase = Staircase::Quest(Quest::new(protocol.quest_config(prior_ratio))?);
+        let verdict = protocol.convergence.judge(&staircase, &[], intensity_range(protocol, &condition))?;
+        Ok(Self { condition, staircase, responses: Vec::new(), verdict, done: false })
     }
 
     /// Radius that the staircase asks for.
     pub(crate) fn next_radius_px(&self) -> f64 {
-        self.condition.texel_px * libm::exp10(-self.quest.placement())
+        self.condition.texel_px * libm::exp10(-self.staircase.placement())
     }
 
     /// Takes a response to `trial`, at the radius that was shown.
     pub(crate) fn respond(&mut self, protocol: &Protocol, trial: &Trial, correct: bool) -> Result<(), Error> {
-        self.quest.update(trial.intensity(), correct)?;
+        self.staircase.update(trial.intensity(), correct)?;
         self.responses.push((trial.intensity(), correct));
         let range = intensity_range(protocol, &self.condition);
-        self.verdict = protocol.convergence.judge(&self.prior, &self.quest, &self.responses, range)?;
+        self.verdict = protocol.convergence.judge(&self.staircase, &self.responses, range)?;
         let trials = self.trials();
-        self.done = trials >= protocol.schedule.trials_max || (trials >= protocol.schedule.trials_min && self.verdict.is_converged());
+        self.done = trials >= protocol.schedule.trials_max
+            || (trials >= protocol.schedule.trials_min && self.verdict.is_converged());
         Ok(())
     }
 
@@ -60,8 +61,8 @@ impl Track {
     }
 
     /// Its posterior.
-    pub fn quest(&self) -> &Quest {
-        &self.quest
+    pub fn staircase(&self) -> &Staircase {
+        &self.staircase
     }
 
     /// Its responses in order: intensity as shown, and whether the answer was right.
@@ -88,9 +89,9 @@ impl Track {
     pub fn estimate(&self) -> Estimate {
         let ratio = |intensity: f64| libm::exp10(-intensity);
         Estimate {
-            ratio: ratio(self.quest.mean()),
-            ratio_interval90: (ratio(self.quest.quantile(0.95)), ratio(self.quest.quantile(0.05))),
-            sd_log10: self.quest.sd(),
+            ratio: ratio(self.staircase.mean()),
+            ratio_interval90: (ratio(self.staircase.quantile(0.95)), ratio(self.staircase.quantile(0.05))),
+            sd_log10: self.staircase.sd(),
         }
     }
 }

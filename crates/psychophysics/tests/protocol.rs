@@ -13,7 +13,10 @@ fn a_protocol_survives_its_file() {
 fn a_name_on_the_command_line_gives_its_protocol_and_another_one_the_list() {
     assert_eq!(Protocol::named("two-alternative").unwrap(), Protocol::two_alternative());
     let error = Protocol::named("three-alternative").unwrap_err();
-    assert_eq!(error.to_string(), "protocol is three-alternative; allowed is published, two-alternative, yes-no, or a file that ends in .toml");
+    assert_eq!(
+        error.to_string(),
+        "protocol is three-alternative; allowed is published, two-alternative, yes-no, or a file that ends in .toml"
+    );
 }
 
 #[test]

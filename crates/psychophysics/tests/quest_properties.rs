@@ -3,10 +3,21 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 use proptest::prelude::*;
-use scumble_psychophysics::{Error, Protocol, Quest, QuestConfig, Shown};
+use scumble_psychophysics::{Error, PlacementRule, Quest, QuestConfig, Shown};
 
+/// Kreuzer 2017's parameters with a prior of 3 texels.
 fn config() -> QuestConfig {
-    Protocol::two_alternative().quest_config(3.0)
+    QuestConfig {
+        t_guess: -0.477,
+        t_guess_sd: 0.6,
+        p_threshold: 0.82,
+        beta: 3.5,
+        delta: 0.01,
+        gamma: 0.5,
+        grain: 0.01,
+        range: 5.0,
+        placement: PlacementRule::Quantile,
+    }
 }
 
 fn prior() -> Quest {

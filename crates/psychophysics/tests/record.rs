@@ -73,7 +73,7 @@ fn a_session_read_back_rebuilds_every_quest_bit_for_bit() {
     let replayed = session.replay().unwrap();
     for (replayed, original) in replayed.tracks().iter().zip(experiment.tracks()) {
         let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-        assert_eq!(bits(replayed.quest().posterior()), bits(original.quest().posterior()));
+        assert_eq!(bits(replayed.staircase().threshold_posterior()), bits(original.staircase().threshold_posterior()));
     }
     assert_eq!(replayed, experiment);
 }

@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 use scumble_psychophysics::{
-    Answer, Error, Event, Experiment, ObserverParameters, Protocol, Pictures, Quest, Reply, Stage, Trial, WeibullObserver, rehearse,
+    Answer, Error, Event, Experiment, ObserverParameters, Pictures, Protocol, Quest, Reply, Stage, Staircase, Trial,
+    WeibullObserver, rehearse,
 };
 use scumble_stimuli::{Pattern, Shape, Stimulus, Transfer};
 
@@ -154,8 +155,8 @@ fn practice_gives_feedback_and_teaches_no_quest() {
     }
     let first_rest = Stage::Rest { round: 1, rounds: 4, within_round: false };
     assert_eq!(*experiment.stage(), first_rest);
-    let prior = Quest::new(protocol.quest_config(3.0)).unwrap();
-    assert!(experiment.tracks().iter().all(|track| *track.quest() == prior));
+    let prior = Staircase::Quest(Quest::new(protocol.quest_config(3.0)).unwrap());
+    assert!(experiment.tracks().iter().all(|track| *track.staircase() == prior));
 }
 
 #[test]
@@ -207,7 +208,7 @@ fn quest_learns_from_the_radius_shown_where_the_picture_cannot_hold_the_one_aske
             let shown = answered.trial.intensity();
             quest.update(shown, answered.correct).unwrap();
         }
-        assert_eq!(quest, *track.quest());
+        assert_eq!(Staircase::Quest(quest), *track.staircase());
     }
     let largest_step = experiment
         .tracks()
@@ -215,7 +216,7 @@ fn quest_learns_from_the_radius_shown_where_the_picture_cannot_hold_the_one_aske
         .filter(|track| track.condition().pattern == Pattern::Step && track.condition().texel_px == 20.0);
     // The threshold lies beyond what was shown, which the rule must not call converged.
     assert!(largest_step.clone().count() == 2);
-    assert!(largest_step.clone().all(|track| !track.verdict().inside));
+    assert!(largest_step.clone().all(|track| !track.verdict().is_inside()));
 }
 
 #[test]

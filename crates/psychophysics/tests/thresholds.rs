@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 use scumble_psychophysics::{
-    Answer, Condition, Convergence, Experiment, ObserverParameters, Population, Protocol, Quest, Reply, Stage, Track,
+    Answer, Condition, Convergence, Experiment, ObserverParameters, Population, Protocol, Reply, Stage, Track,
     WeibullObserver, rehearse,
 };
 use scumble_stimuli::{Kernel, Pattern};
@@ -182,31 +182,4 @@ fn someone_who_guesses_is_hardly_ever_called_converged() {
     }
     // Of 360 QUESTs.
     assert!(converged <= 12, "{converged}");
-}
-
-#[test]
-fn each_part_of_the_convergence_rule_can_fail_alone() {
-    let protocol = Protocol::two_alternative();
-    let rule = protocol.convergence;
-    let prior = Quest::new(protocol.quest_config(3.0)).unwrap();
-    let judge = |responses: &[(f64, bool)], range: (f64, f64)| {
-        let mut quest = prior.clone();
-        for (intensity, correct) in responses {
-            quest.update(*intensity, *correct).unwrap();
-        }
-        rule.judge(&prior, &quest, responses, range).unwrap()
-    };
-    let wide = (-2.0, 2.0);
-    // Every fifth answer wrong at one intensity: the threshold is near it.
-    let steady: Vec<(f64, bool)> = (0..40).map(|i| (-0.5, i % 5 != 4)).collect();
-    assert!(judge(&steady, wide).is_converged());
-
-    let early = judge(&steady[..5], wide);
-    assert!(!early.narrow && !early.both_responses && early.inside);
-    let at_edge = judge(&steady, (-2.0, -0.5));
-    assert!(!at_edge.inside && at_edge.narrow && at_edge.both_responses && at_edge.halves_agree);
-    // Good at first, guessing afterwards.
-    let tired: Vec<(f64, bool)> = (0..40).map(|i| (-0.5, i < 20 || i % 2 == 0)).collect();
-    let tired = judge(&tired, wide);
-    assert!(!tired.halves_agree && tired.both_responses && tired.inside);
 }
