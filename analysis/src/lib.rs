@@ -54,6 +54,7 @@ mod outputs;
 mod people;
 mod population;
 mod quest_table;
+mod replay;
 mod report;
 mod series;
 mod simulation;
@@ -75,9 +76,10 @@ pub use maximum_likelihood::{
     Count, Fitted, LAPSE_LARGEST, LIKELIHOOD_DROP_95, Model, Parameter, SLOPE_RANGE, fit, log_likelihood,
 };
 pub use outputs::{Output, write_outputs};
-pub use people::{LoadedSession, Person, Run, Study, Track};
+pub use people::{LoadedSession, Person, Run, Study, Track, session_directories};
 pub use population::{DETECTIONS, Population, PopulationPoint, SLOPE_CI95, VIEWERS};
 pub use quest_table::{read_quest_config, read_responses, write_summaries};
+pub use replay::{Replayed, hashed_pictures, replay_session};
 pub use report::{REPORT, report_html};
 pub use series::{OriginLine, PersonInSeries, Series};
 pub use simulation::Simulation;

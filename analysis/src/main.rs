@@ -10,10 +10,10 @@ use anyhow::Context;
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use scumble_analysis::{
-    Parameter, Simulation, Study, fit_count_table, fit_study, read_count_table, read_quest_config, read_responses,
-    write_summaries,
+    Parameter, Simulation, Study, fit_count_table, fit_study, hashed_pictures, read_count_table, read_quest_config,
+    read_responses, replay_session, session_directories, write_summaries,
 };
-use scumble_psychophysics::{ObserverParameters, Protocol};
+use scumble_psychophysics::{ObserverParameters, Protocol, read_session};
 
 /// From the sessions of a study to relation.json, the file that a renderer reads.
 #[derive(Parser)]
@@ -75,6 +75,19 @@ Equal arguments give equal files. A session that exists is never overwritten.")]
         /// Share of trials answered blindly.
         #[arg(long, default_value_t = 0.01)]
         lapse: f64,
+    },
+    /// Recomputes every staircase and picture of recorded sessions and compares them with the record.
+    #[command(after_help = "Examples:
+  scumble-analysis replay data/p01        one session
+  scumble-analysis replay data            every session in the folder data
+
+Every placement, radius and draw must equal the recorded one bit for bit, and every picture whose hash
+the record holds is drawn again. Prints one line a session; stops with exit status 1 at the first line
+of a record that differs, which it names.")]
+    Replay {
+        /// A session, or a folder with sessions directly in it.
+        #[arg(required = true, value_name = "SESSION")]
+        sessions: Vec<PathBuf>,
     },
     /// Runs QUEST over a table of answers and prints its summaries as CSV.
     #[command(after_help = "Example:
@@ -139,6 +152,7 @@ fn run(command: Command) -> anyhow::Result<()> {
             let between_sd_log10 = between_sd;
             simulate(&Simulation { protocol, observers, seed, median, between_sd_log10 }, &out)
         }
+        Command::Replay { sessions } => replay(&sessions),
         Command::Quest { config, responses } => {
             let names = [&config, &responses].map(|path| stem(path));
             let (config, table) = (read_quest_config(&config)?, read_responses(&responses)?);
@@ -180,15 +194,49 @@ fn fit(sessions: &[PathBuf], out: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Writes the sessions behind a progress bar, which hides itself where nobody watches.
+/// Writes the sessions behind a progress bar.
 fn simulate(simulation: &Simulation, out: &Path) -> anyhow::Result<()> {
-    let style = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} {eta}")?;
-    let bar = ProgressBar::new(simulation.observers.into()).with_style(style);
-    bar.set_message("observers");
+    let bar = progress_bar(simulation.observers.into(), "observers")?;
     let directories = simulation.write(out, || bar.inc(1))?;
     bar.finish_and_clear();
     println!("wrote {} sessions into {}", directories.len(), out.display());
     Ok(())
+}
+
+/// Replays every session behind a progress bar of its pictures.
+fn replay(paths: &[PathBuf]) -> anyhow::Result<()> {
+    for path in paths {
+        for directory in session_directories(path)? {
+            let session = read_session(&directory)?;
+            for notice in &session.notices {
+                eprintln!("notice: {notice}");
+            }
+            let pictures = hashed_pictures(&session);
+            let bar = progress_bar(pictures as u64, "pictures")?;
+            let replayed = replay_session(&session, |drawn| bar.inc(drawn as u64))?;
+            bar.finish_and_clear();
+            let pictures = match replayed.pictures {
+                0 => "the record has no hashes of pictures".to_owned(),
+                count => format!("{count} pictures"),
+            };
+            println!(
+                "{}: equal: {} trials, {} practice trials, {} staircases, {pictures}",
+                directory.display(),
+                replayed.trials,
+                replayed.practice,
+                replayed.staircases,
+            );
+        }
+    }
+    Ok(())
+}
+
+/// A progress bar, which hides itself where nobody watches.
+fn progress_bar(length: u64, what: &'static str) -> anyhow::Result<ProgressBar> {
+    let style = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} {eta}")?;
+    let bar = ProgressBar::new(length).with_style(style);
+    bar.set_message(what);
+    Ok(bar)
 }
 
 /// A file's name without folder and ending.

@@ -171,8 +171,11 @@ pub(crate) fn directory_name(directory: &Path) -> String {
     directory.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// `path` itself where it holds a session, else the folders directly below it that do.
-fn session_directories(path: &Path) -> Result<Vec<PathBuf>, Error> {
+/// `path` itself where it holds a session, else the folders directly below it that do, by name.
+///
+/// # Errors
+/// A path that cannot be read or holds no session.
+pub fn session_directories(path: &Path) -> Result<Vec<PathBuf>, Error> {
     let is_session = |path: &Path| path.join(HEADER_FILE).exists() || path.join(EVENTS_FILE).exists();
     let path = path.canonicalize().map_err(Error::io(path))?;
     if is_session(&path) {
@@ -189,6 +192,7 @@ fn session_directories(path: &Path) -> Result<Vec<PathBuf>, Error> {
         let reason = format!("no session: neither the folder nor a folder in it has {HEADER_FILE}");
         return Err(Error::File { path, reason });
     }
+    found.sort();
     Ok(found)
 }
 
