@@ -79,6 +79,16 @@ impl Error {
         Self::Parameter { field: field.into(), value: value.to_string(), allowed }
     }
 
+    /// A parameter's error under the name that it has in a protocol's table.
+    pub(crate) fn in_table(table: &str) -> impl FnOnce(Self) -> Self {
+        move |error| match error {
+            Self::Parameter { field, value, allowed } => {
+                Self::Parameter { field: format!("{table}.{field}"), value, allowed }
+            }
+            other => other,
+        }
+    }
+
     /// The system's refusal of `path`.
     pub(crate) fn io(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();

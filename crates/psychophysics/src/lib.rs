@@ -70,7 +70,7 @@ pub use header::{Display, Luminance, SESSION_SCHEMA, SessionHeader, Software};
 pub use observer::{ObserverParameters, WeibullObserver};
 pub use population::Population;
 pub use protocol::{
-    CatchTrials, Conditions, LineTrials, Order, PictureRules, Practice, Protocol, Round, Schedule, StaircaseRules, Task,
+    CatchTrials, Conditions, LineTrials, Order, PictureRules, Practice, Protocol, Round, Schedule, Task,
 };
 pub use psychometric::Psychometric;
 pub use quest::Quest;

@@ -8,7 +8,9 @@ use scumble_stimuli::{Encoding, Kernel, Pattern};
 use serde::{Deserialize, Serialize};
 
 use crate::convergence::Convergence;
-use crate::quest_config::{PlacementRule, QuestConfig};
+use crate::error::Error;
+use crate::staircase::Staircase;
+use crate::staircase_config::StaircaseConfig;
 use crate::trial::Condition;
 
 /// Every parameter of a session.
@@ -24,7 +26,7 @@ pub struct Protocol {
     /// How it is drawn.
     pub pictures: PictureRules,
     /// How the radii are chosen.
-    pub staircase: StaircaseRules,
+    pub staircase: StaircaseConfig,
     /// When a staircase between its fewest and its most trials is done.
     pub convergence: Convergence,
     /// In what order, and how much.
@@ -82,28 +84,6 @@ pub struct PictureRules {
     pub tilt_range_rad: f64,
     /// Smallest radius shown, in texels.
     pub ratio_min: f64,
-}
-
-/// How the radii are chosen.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StaircaseRules {
-    /// Centres of the priors, radius in texels: one staircase a condition and prior.
-    pub prior_ratios: Vec<f64>,
-    /// Standard deviation of the prior in log10 of the ratio.
-    pub prior_sd_log10: f64,
-    /// Share of responses of 1 at the threshold.
-    pub threshold_probability: f64,
-    /// Share of responses of 1 where the artifact is not seen.
-    pub guess_probability: f64,
-    /// Share of trials answered blindly that the staircase assumes.
-    pub lapse_probability: f64,
-    /// Slope of the psychometric function, per log10 unit.
-    pub slope_per_log10: f64,
-    /// Step of the table of thresholds in log10 of the ratio.
-    pub table_step_log10: f64,
-    /// Width of the table of thresholds in log10 of the ratio.
-    pub table_width_log10: f64,
 }
 
 /// In what order the rounds come, how long they are, and when to rest.
@@ -176,21 +156,10 @@ pub struct Round {
 }
 
 impl Protocol {
-    /// Parameters of the staircase whose prior is centred at `prior_ratio` texels: its intensity is
-    /// `log10(texel / radius)`.
-    pub fn quest_config(&self, prior_ratio: f64) -> QuestConfig {
-        let rules = &self.staircase;
-        QuestConfig {
-            t_guess: -libm::log10(prior_ratio),
-            t_guess_sd: rules.prior_sd_log10,
-            p_threshold: rules.threshold_probability,
-            beta: rules.slope_per_log10,
-            delta: rules.lapse_probability,
-            gamma: rules.guess_probability,
-            grain: rules.table_step_log10,
-            range: rules.table_width_log10,
-            placement: PlacementRule::Quantile,
-        }
+    /// The staircase whose prior is centred at `prior_ratio` texels: its intensity is
+    /// `log10(texel / radius)`. Errors name the key that is out of its range.
+    pub fn staircase_at(&self, prior_ratio: f64) -> Result<Staircase, Error> {
+        self.staircase.staircase(-libm::log10(prior_ratio))
     }
 
     /// Every round, before their order is drawn.

@@ -2,7 +2,6 @@
 
 use crate::error::{Error, require};
 use crate::protocol::{Protocol, Task};
-use crate::quest::Quest;
 
 /// What a ratio may be.
 const POSITIVE_RATIO: &str = "a finite number of texels above 0";
@@ -19,7 +18,7 @@ impl Protocol {
         self.check_extra_trials()?;
         self.convergence.check()?;
         for ratio in &self.staircase.prior_ratios {
-            Quest::new(self.quest_config(*ratio))?;
+            self.staircase_at(*ratio).map_err(Error::in_table("staircase"))?;
         }
         Ok(())
     }

@@ -22,12 +22,14 @@ pub enum StaircaseMethod {
     QuestPlus,
 }
 
-/// Every parameter of a staircase but the centre of its prior, which depends on what is measured.
+/// Every parameter of the staircases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StaircaseConfig {
     /// The procedure.
     pub method: StaircaseMethod,
+    /// Centres of the threshold's prior, radius in texels: one staircase a condition and centre.
+    pub prior_ratios: Vec<f64>,
     /// Standard deviation of the threshold's prior, above 0; one much larger than the table is a
     /// uniform prior.
     pub prior_sd_log10: f64,
@@ -58,11 +60,12 @@ pub struct StaircaseConfig {
 
 impl StaircaseConfig {
     /// QUEST with Kreuzer 2017's parameters (4.2): threshold probability 0.82, gamma 0.5, delta 0.01,
-    /// beta 3.5. The prior's SD of 0.6 log10 is this project's, as the published one has no unit; step
+    /// beta 3.5. The prior, 3 texels with an SD of 0.6 log10, is this project's, as the published one has no unit; step
     /// and width of the table are Psychtoolbox's.
     pub fn quest() -> Self {
         Self {
             method: StaircaseMethod::Quest,
+            prior_ratios: vec![3.0],
             prior_sd_log10: 0.6,
             threshold_probability: 0.82,
             guess_probability: 0.5,

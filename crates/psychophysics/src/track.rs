@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use crate::convergence::Verdict;
 use crate::error::Error;
 use crate::protocol::Protocol;
-use crate::quest::Quest;
 use crate::staircase::Staircase;
 use crate::trial::{Condition, Trial};
 
@@ -33,7 +32,7 @@ pub struct Estimate {
 impl Track {
     /// A staircase at its prior.
     pub(crate) fn new(protocol: &Protocol, condition: Condition, prior_ratio: f64) -> Result<Self, Error> {
-        let staircase = Staircase::Quest(Quest::new(protocol.quest_config(prior_ratio))?);
+        let staircase = protocol.staircase_at(prior_ratio)?;
         let verdict = protocol.convergence.judge(&staircase, &[], intensity_range(protocol, &condition))?;
         Ok(Self { condition, staircase, responses: Vec::new(), verdict, done: false })
     }

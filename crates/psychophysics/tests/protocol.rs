@@ -28,10 +28,10 @@ fn a_misspelt_key_is_refused_by_name() {
 }
 
 #[test]
-fn quests_prior_is_three_texels_and_its_intensity_the_negative_logarithm_of_the_ratio() {
-    let config = Protocol::two_alternative().quest_config(3.0);
-    assert!((config.t_guess + 3f64.log10()).abs() < 1e-15);
-    assert_eq!(config.t_guess_sd, 0.6);
+fn the_prior_is_three_texels_and_the_intensity_the_negative_logarithm_of_the_ratio() {
+    let staircase = Protocol::two_alternative().staircase_at(3.0).unwrap();
+    assert!((staircase.mean() + 3f64.log10()).abs() < 1e-12);
+    assert!((staircase.sd() - 0.6).abs() < 1e-3);
 }
 
 #[test]
@@ -54,8 +54,8 @@ fn every_parameter_out_of_range_is_refused_by_name_before_a_session_starts() {
         ("schedule.trials_min", |p| p.schedule.trials_min = 0),
         ("schedule.trials_max", |p| p.schedule.trials_max = 9),
         ("staircase.prior_ratios", |p| p.staircase.prior_ratios[0] = -3.0),
-        ("tGuessSd", |p| p.staircase.prior_sd_log10 = 0.0),
-        ("threshold probability", |p| p.staircase.threshold_probability = 0.4),
+        ("staircase.prior_sd_log10", |p| p.staircase.prior_sd_log10 = 0.0),
+        ("staircase.threshold_probability", |p| p.staircase.threshold_probability = 0.4),
         ("convergence.interval_width_log10", |p| {
             p.convergence.interval_width_log10 = 0.0;
         }),
