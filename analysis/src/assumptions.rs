@@ -37,8 +37,8 @@ impl Assumptions {
         let guess = rules.guess_probability;
         Self {
             guess,
-            blind_share: rules.lapse_probability,
-            slope: rules.slope_per_log10,
+            blind_share: rules.central_lapse_probability(),
+            slope: rules.central_slope_per_log10(),
             detection_at_threshold: (rules.threshold_probability - guess) / (1.0 - guess),
         }
     }

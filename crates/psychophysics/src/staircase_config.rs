@@ -99,6 +99,18 @@ impl StaircaseConfig {
         }
     }
 
+    /// The slope that an analysis may take as known: QUEST's, or the middle one of QUEST+'s list.
+    ///
+    /// Panics on a configuration that [`check`](Self::check) refuses.
+    pub fn central_slope_per_log10(&self) -> f64 {
+        self.slope_per_log10.unwrap_or_else(|| middle(&self.slopes_per_log10))
+    }
+
+    /// The share of blind responses that an analysis may take as known, as for the slope.
+    pub fn central_lapse_probability(&self) -> f64 {
+        self.lapse_probability.unwrap_or_else(|| middle(&self.lapse_probabilities))
+    }
+
     /// Refuses parameters outside their ranges and those of the other method; the error names the key.
     pub fn check(&self) -> Result<(), Error> {
         self.staircase(0.0).map(|_| ())
@@ -200,6 +212,11 @@ impl StaircaseConfig {
     }
 }
 
+/// The middle of a list, the lower of two.
+fn middle(values: &[f64]) -> f64 {
+    values[(values.len() - 1) / 2]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -254,6 +271,13 @@ mod tests {
             let (placement, quest) = placed(with(rule));
             assert_eq!(placement, quest.quantile(quest.quantile_order()));
         }
+    }
+
+    #[test]
+    fn what_an_analysis_takes_as_known_is_quests_or_the_middle_of_the_list() {
+        let (quest, plus) = (StaircaseConfig::quest(), StaircaseConfig::quest_plus());
+        assert_eq!((quest.central_slope_per_log10(), quest.central_lapse_probability()), (3.5, 0.01));
+        assert_eq!((plus.central_slope_per_log10(), plus.central_lapse_probability()), (3.5, 0.03));
     }
 
     #[test]
