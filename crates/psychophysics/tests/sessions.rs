@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 use scumble_psychophysics::{
-    Answer, Error, Event, Experiment, ObserverParameters, Pictures, Protocol, Quest, Reply, Stage, Staircase, Trial,
-    WeibullObserver, rehearse,
+    Answer, Error, Event, Experiment, ObserverParameters, Pictures, Protocol, Reply, Stage, Trial, WeibullObserver,
+    rehearse,
 };
 use scumble_stimuli::{Pattern, Shape, Stimulus, Transfer};
 
@@ -155,7 +155,7 @@ fn practice_gives_feedback_and_teaches_no_quest() {
     }
     let first_rest = Stage::Rest { round: 1, rounds: 4, within_round: false };
     assert_eq!(*experiment.stage(), first_rest);
-    let prior = Staircase::Quest(Quest::new(protocol.quest_config(3.0)).unwrap());
+    let prior = protocol.staircase_at(3.0).unwrap();
     assert!(experiment.tracks().iter().all(|track| *track.staircase() == prior));
 }
 
@@ -202,13 +202,13 @@ fn quest_learns_from_the_radius_shown_where_the_picture_cannot_hold_the_one_aske
         assert!(trial.radius_px == smallest_px || trial.radius_px == largest_px);
     }
     for track in experiment.tracks() {
-        let mut quest = Quest::new(protocol.quest_config(3.0)).unwrap();
+        let mut staircase = protocol.staircase_at(3.0).unwrap();
         let of_track = events.iter().filter_map(Event::measured);
         for answered in of_track.filter(|a| a.trial.condition == *track.condition()) {
             let shown = answered.trial.intensity();
-            quest.update(shown, answered.correct).unwrap();
+            staircase.update(shown, answered.correct).unwrap();
         }
-        assert_eq!(Staircase::Quest(quest), *track.staircase());
+        assert_eq!(staircase, *track.staircase());
     }
     let largest_step = experiment
         .tracks()
