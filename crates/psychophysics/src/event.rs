@@ -3,11 +3,13 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
+use crate::error::{Error, require};
+use crate::event_line::EventLine;
 use crate::trial::{Answer, Role, Trial};
 
-/// One line of the record. The states of the QUESTs are not in it: they follow from the answers.
+/// One line of the record. The states of the staircases are not in it: they follow from the answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "event", rename_all = "snake_case")]
+#[serde(tag = "event", rename_all = "snake_case", try_from = "EventLine")]
 pub enum Event {
     /// An answer that a staircase learned from.
     Trial(Answered),
@@ -90,26 +92,27 @@ impl Event {
 }
 
 impl Answered {
-    /// What contradicts itself in an answer read from a file, in words.
-    pub(crate) fn contradiction(&self) -> Option<String> {
-        let allowed = self.trial.pictures.answers();
-        if !allowed.contains(&self.answer) {
-            return Some(format!("answer {:?} to a question that takes {allowed:?}", self.answer));
-        }
-        if self.correct != self.trial.is_correct(self.answer) {
-            let right = self.trial.pictures.right_answer();
-            return Some(format!("correct {} for the answer {:?} where {right:?} is right", self.correct, self.answer));
-        }
-        let hashes = self.pictures_sha256.len();
-        if hashes != 0 && hashes != self.trial.pictures.all().len() {
-            return Some(format!("pictures_sha256 with {hashes} entries"));
-        }
-        if !is_response_time(self.response_time_secs) {
-            return Some(format!("response_time_secs {}", self.response_time_secs));
-        }
-        self.trial.contradiction()
+    /// Refuses an answer, read from a file, that contradicts itself or its trial; the error names the key.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        self.trial.check()?;
+        let allowed = "left and right for two pictures, yes and no for one";
+        let of_question = self.trial.pictures.answers().contains(&self.answer);
+        require(of_question, "answer", self.answer.name(), allowed)?;
+        let is_right = self.trial.is_correct(self.answer);
+        let allowed = "true where the answer is the right one for the pictures, else false";
+        require(self.correct == is_right, "correct", self.correct, allowed)?;
+        let secs = self.response_time_secs;
+        require(is_response_time(secs), "response_time_secs", secs, RESPONSE_TIME_ALLOWED)?;
+        let hashes = &self.pictures_sha256;
+        let is_hash = |hash: &String| hash.len() == 64 && hash.bytes().all(|b| b.is_ascii_hexdigit());
+        let fits = hashes.is_empty() || hashes.len() == self.trial.pictures.all().len();
+        let allowed = "one SHA-256 of 64 hexadecimal digits for each picture, or no such key";
+        require(fits && hashes.iter().all(is_hash), "pictures_sha256", format!("{hashes:?}"), allowed)
     }
 }
+
+/// What a response time may be.
+pub(crate) const RESPONSE_TIME_ALLOWED: &str = "a finite number of seconds, at least 0";
 
 /// Whether a number can be a response time: finite and at least 0.
 pub(crate) fn is_response_time(secs: f64) -> bool {

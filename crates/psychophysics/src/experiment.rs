@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, require};
-use crate::event::{Answered, Event, Reply, is_response_time};
+use crate::event::{Answered, Event, RESPONSE_TIME_ALLOWED, Reply, is_response_time};
 use crate::picture::{Request, draw_trial};
 use crate::protocol::Protocol;
 use crate::timetable::Timetable;
@@ -130,11 +130,10 @@ impl Experiment {
             return Err(self.refuse("answer", "practice and trial"));
         };
         let Reply { answer, response_time_secs, pictures_sha256 } = reply;
-        let allowed = "a finite number of seconds, at least 0";
-        require(is_response_time(response_time_secs), "response_time_secs", response_time_secs, allowed)?;
+        require(is_response_time(response_time_secs), "response_time_secs", response_time_secs, RESPONSE_TIME_ALLOWED)?;
         let of_question = trial.pictures.answers().contains(&answer);
         let allowed = "left and right for two pictures, yes and no for one";
-        require(of_question, "answer", format!("{answer:?}"), allowed)?;
+        require(of_question, "answer", answer.name(), allowed)?;
         let correct = trial.is_correct(answer);
         let answered = Answered { trial, answer, correct, response_time_secs, pictures_sha256 };
         if trial.role == Role::Practice {
@@ -160,7 +159,7 @@ impl Experiment {
             self.tracks().iter().map(of_track).sum()
         };
         Progress {
-            trials: self.answered,
+            trials: self.tracks().iter().map(Track::trials).sum(),
             trials_at_least: total(|trials, protocol| protocol.schedule.trials_min.max(trials + 1)),
             trials_at_most: total(|_, protocol| protocol.schedule.trials_max),
             round: self.timetable.round_number(),

@@ -30,8 +30,10 @@ pub struct SessionHeader {
     /// Every parameter of the session.
     pub protocol: Protocol,
     /// What the pictures were shown on; `None` for a session without a display.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub display: Option<Display>,
     /// The simulated person who answered; `None` for a human.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub simulated_observer: Option<ObserverParameters>,
     /// Programs that made the session.
     pub software: Software,

@@ -30,13 +30,16 @@
 //! It does not fit a relation to sessions; that is the analysis. QUEST's estimate steers the session
 //! and is a diagnostic, not the result of a study.
 
+mod complaint;
 mod convergence;
 mod draw;
 mod error;
 mod event;
+mod event_line;
 mod experiment;
 mod grid;
 mod header;
+mod header_file;
 mod latin_square;
 mod likelihood;
 mod observer;
@@ -57,6 +60,7 @@ mod replay;
 mod staircase;
 mod staircase_config;
 mod summary;
+mod text;
 mod timetable;
 mod track;
 mod trial;

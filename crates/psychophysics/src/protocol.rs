@@ -79,8 +79,9 @@ pub struct PictureRules {
     pub encoding: Encoding,
     /// Whether noise of less than a level hides the contours of equal levels.
     pub dithered: bool,
-    /// Each picture of a step is turned by an angle drawn from `-tilt_range_rad ..= tilt_range_rad`, so
-    /// that the tilt of its line, which no blur hides, does not betray it.
+    /// Each picture but a stair's is turned by an angle of its own, drawn from `-tilt_range_rad ..=
+    /// tilt_range_rad`, as no blur hides the tilt of the line of a step, `s = texel_px / width_px`. Who calls
+    /// the more tilted picture the line is right in `1/2 + (s / tilt_range_rad)^2 / 4` of the trials.
     pub tilt_range_rad: f64,
     /// Smallest radius shown, in texels.
     pub ratio_min: f64,

@@ -4,8 +4,10 @@ use std::path::Path;
 
 use toml::de::{DeTable, DeValue};
 
+use crate::complaint::Complaint;
 use crate::error::Error;
 use crate::protocol::Protocol;
+use crate::text::Text;
 
 /// The protocols that come with the crate: name and file.
 const SHIPPED: [(&str, &str); 3] = [
@@ -34,28 +36,26 @@ impl Protocol {
         }
         let path = Path::new(name);
         let bytes = std::fs::read(path).map_err(Error::io(path))?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let line = line_of(error.as_bytes(), error.utf8_error().valid_up_to());
-            damaged(path, line, "bytes that are not UTF-8", "text in UTF-8")
-        })?;
-        Self::from_toml(path, &text)
+        Self::from_toml(path, bytes)
     }
 
-    /// The protocol of a file's text; `path` is for messages.
-    pub fn from_toml(path: &Path, text: &str) -> Result<Self, Error> {
-        let protocol: Self = toml::from_str(text).map_err(|error| {
-            let line = line_of(text.as_bytes(), error.span().map_or(0, |span| span.start));
-            damaged(
-                path,
-                line,
-                error.message(),
-                "the keys of the protocols that come with the program, each with its unit",
-            )
-        })?;
+    /// The protocol of a file's text, checked; `path` is for messages.
+    ///
+    /// Errors name the line of what is no TOML, no key of a protocol, of another type or out of its range.
+    pub fn from_toml(path: &Path, text: impl AsRef<[u8]>) -> Result<Self, Error> {
+        let file = Text::new(path, text.as_ref())?;
+        let complain = |key: &str, error: &toml::de::Error| {
+            let allowed = "the TOML of a protocol, as `published`, `two-alternative` and `yes-no` are written";
+            let Complaint { found, allowed } = Complaint::new(key, error.message(), allowed);
+            let place = error.span().map_or_else(|| place_of(file.text, key), |span| span.start);
+            file.damaged(place, found, allowed)
+        };
+        let deserializer = toml::Deserializer::parse(file.text).map_err(|error| complain(".", &error))?;
+        let protocol: Self = serde_path_to_error::deserialize(deserializer)
+            .map_err(|error| complain(&error.path().to_string(), error.inner()))?;
         match protocol.check() {
             Err(Error::Parameter { field, value, allowed }) => {
-                let line = line_of(text.as_bytes(), place_of(text, &field));
-                Err(damaged(path, line, format!("{field} is {value}"), allowed))
+                Err(file.damaged(place_of(file.text, &field), format!("{field} is {value}"), allowed))
             }
             checked => checked.map(|()| protocol),
         }
@@ -75,25 +75,21 @@ fn shipped(text: &str) -> Protocol {
     }
 }
 
-fn damaged(path: &Path, line: usize, found: impl Into<String>, allowed: impl Into<String>) -> Error {
-    Error::Damaged { path: path.into(), line, found: found.into(), allowed: allowed.into() }
-}
-
-/// The line, from 1, of a byte.
-fn line_of(text: &[u8], byte: usize) -> usize {
-    1 + text[..byte.min(text.len())].iter().filter(|byte| **byte == b'\n').count()
-}
-
-/// The byte at which the value of a dotted key stands; 0 for a key that the text does not hold.
+/// The byte at which the value of a key stands, `table.list[1]`; of a key that is not there, the byte at
+/// which the innermost table around it begins.
 fn place_of(text: &str, key: &str) -> usize {
     let Ok(document) = DeTable::parse(text) else { return 0 };
-    let mut table = document.get_ref();
+    let mut value = &DeValue::Table(document.into_inner());
     let mut place = 0;
-    for part in key.split('.') {
-        let Some(value) = table.get(part) else { return place };
-        place = value.span().start;
-        let DeValue::Table(next) = value.get_ref() else { return place };
-        table = next;
+    for part in key.split(['.', '[', ']']).filter(|part| !part.is_empty()) {
+        let next = match value {
+            DeValue::Table(table) => table.get(part),
+            DeValue::Array(list) => part.parse().ok().and_then(|index: usize| list.get(index)),
+            _ => None,
+        };
+        let Some(next) = next else { break };
+        place = next.span().start;
+        value = next.get_ref();
     }
     place
 }

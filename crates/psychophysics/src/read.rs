@@ -5,11 +5,13 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::complaint::{Complaint, quoted};
 use crate::error::Error;
-use crate::event::Event;
+use crate::event::{Answered, Event};
 use crate::experiment::Experiment;
 use crate::header::SessionHeader;
 use crate::record::{EVENTS_FILE, HEADER_FILE};
+use crate::text::{Text, damaged};
 
 /// A session read from its directory.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,47 +30,50 @@ pub struct Session {
 /// Reads a session and checks each event by itself and its place in the numbering;
 /// [`Session::replay`] checks it against the seed.
 pub fn read_session(directory: &Path) -> Result<Session, Error> {
-    let path = directory.join(EVENTS_FILE);
-    let bytes = std::fs::read(&path).map_err(Error::io(&path))?;
-    parse_session(directory, &bytes)
+    let events = read(&directory.join(EVENTS_FILE))?;
+    Session::parse(directory, &read(&directory.join(HEADER_FILE))?, &events)
 }
 
-/// The session of a directory whose events are `bytes`.
-pub(crate) fn parse_session(directory: &Path, bytes: &[u8]) -> Result<Session, Error> {
-    let header = read_header(&directory.join(HEADER_FILE))?;
-    let path = directory.join(EVENTS_FILE);
-    let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
-    let (lines, tail) = bytes.split_at(whole);
-
-    let mut reader = LineReader::new(&path);
-    for line in lines.split_inclusive(|byte| *byte == b'\n') {
-        reader.read(line)?;
-    }
-    let mut notices = Vec::new();
-    if !tail.is_empty() {
-        notices.push(format!(
-            "{}:{}: the last line was cut off after {} bytes and is dropped: {}",
-            path.display(),
-            reader.events.len() + 1,
-            tail.len(),
-            String::from_utf8_lossy(tail)
-        ));
-    }
-    Ok(Session { directory: directory.into(), header, events: reader.events, notices, whole_lines_bytes: whole as u64 })
+/// The bytes of a file.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    std::fs::read(path).map_err(Error::io(path))
 }
 
 impl Session {
-    /// Runs the state machine through the events: every QUEST as it stood at the end of the record.
+    /// The session whose two files hold these bytes, checked as by [`read_session`]; the file system is
+    /// not touched, `directory` is for messages.
+    pub fn parse(directory: &Path, header: &[u8], events: &[u8]) -> Result<Self, Error> {
+        let header = SessionHeader::parse(&directory.join(HEADER_FILE), header)?;
+        let path = directory.join(EVENTS_FILE);
+        let whole = events.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
+        let (lines, tail) = events.split_at(whole);
+        let lines = Text::new(&path, lines)?.refuse_conversions()?.text;
+
+        let mut reader = LineReader { path: &path, events: Vec::new(), practised: 0, answered: 0 };
+        lines.lines().try_for_each(|line| reader.read(line))?;
+        let mut notices = Vec::new();
+        if !tail.is_empty() {
+            notices.push(format!(
+                "{}:{}: the last line was cut off after {} bytes and is dropped: {}",
+                path.display(),
+                reader.events.len() + 1,
+                tail.len(),
+                quoted(&String::from_utf8_lossy(tail))
+            ));
+        }
+        let whole_lines_bytes = whole as u64;
+        Ok(Self { directory: directory.into(), header, events: reader.events, notices, whole_lines_bytes })
+    }
+
+    /// Runs the state machine through the events: every staircase as it stood at the end of the record.
     ///
     /// Errors name the line whose event the seed and the protocol do not lead to.
     pub fn replay(&self) -> Result<Experiment, Error> {
         Experiment::resume(&self.header, &self.events).map_err(|error| match error {
-            Error::Replay { index, found, allowed } => Error::Damaged {
-                path: self.directory.join(EVENTS_FILE),
-                line: index + 1,
-                found,
-                allowed: format!("{allowed}, to which the seed and the answers before lead"),
-            },
+            Error::Replay { index, found, allowed } => {
+                let allowed = format!("{allowed}, to which the seed and the answers before lead");
+                damaged(&self.directory.join(EVENTS_FILE), index + 1, found, allowed)
+            }
             other => other,
         })
     }
@@ -84,20 +89,6 @@ impl Session {
     }
 }
 
-fn read_header(path: &Path) -> Result<SessionHeader, Error> {
-    let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
-    let damaged = |line, found: String| Error::Damaged {
-        path: path.into(),
-        line,
-        found,
-        allowed: "a session header of this version".into(),
-    };
-    let header: SessionHeader =
-        serde_json::from_str(&text).map_err(|error| damaged(error.line(), error.to_string()))?;
-    header.check().map_err(|error| damaged(1, error.to_string()))?;
-    Ok(header)
-}
-
 /// Reads lines in order and remembers what the next trial's number must be.
 struct LineReader<'a> {
     path: &'a Path,
@@ -106,44 +97,67 @@ struct LineReader<'a> {
     answered: u32,
 }
 
-impl<'a> LineReader<'a> {
-    fn new(path: &'a Path) -> Self {
-        Self { path, events: Vec::new(), practised: 0, answered: 0 }
-    }
-
-    fn read(&mut self, line: &[u8]) -> Result<(), Error> {
-        let event: Event = serde_json::from_slice(line)
-            .map_err(|error| self.damaged(error.to_string(), "one event, as JSON, with all of its fields"))?;
+impl LineReader<'_> {
+    fn read(&mut self, line: &str) -> Result<(), Error> {
+        let event = parse_event(line).map_err(|Complaint { found, allowed }| self.damaged(found, allowed))?;
         if let Some(Event::End(_)) = self.events.last() {
             return Err(self.damaged("an event after the end", "nothing"));
         }
-        let is_practice = matches!(event, Event::Practice(_));
-        let count = if is_practice { &mut self.practised } else { &mut self.answered };
         if let Some(answered) = event.answered() {
-            *count += 1;
-            let expected = *count;
-            if answered.trial.number != expected {
-                let found = format!("trial number {}", answered.trial.number);
-                return Err(self.damaged(found, format!("{expected}")));
-            }
-            if Event::of(answered.clone()) != event {
-                let found = format!("a trial of role {:?} under another event", answered.trial.role);
-                return Err(self.damaged(found, "the event of its role"));
-            }
-            if let Some(found) = answered.contradiction() {
-                return Err(self.damaged(found, "an answer that agrees with its trial"));
-            }
+            self.check_place(&event, answered)?;
+            answered.check().map_err(|error| match error {
+                Error::Parameter { field, value, allowed } => self.damaged(format!("{field} is {value}"), allowed),
+                other => other,
+            })?;
         }
         self.events.push(event);
         Ok(())
     }
 
-    fn damaged(&self, found: impl Into<String>, allowed: impl Into<String>) -> Error {
-        Error::Damaged {
-            path: self.path.into(),
-            line: self.events.len() + 1,
-            found: found.into(),
-            allowed: allowed.into(),
+    fn check_place(&mut self, event: &Event, answered: &Answered) -> Result<(), Error> {
+        let is_practice = matches!(event, Event::Practice(_));
+        let count = if is_practice { &mut self.practised } else { &mut self.answered };
+        *count += 1;
+        let expected = *count;
+        let number = answered.trial.number;
+        if number != expected {
+            return Err(self
+                .damaged(format!("trial.number is {number}"), format!("{expected}, as no line is missing or twice")));
         }
+        if Event::of(answered.clone()) != *event {
+            let found = format!("trial.role is {} under another event", answered.trial.role.name());
+            let allowed = "the event of the role: trial for measure, catch for line and catch, practice for practice";
+            return Err(self.damaged(found, allowed));
+        }
+        Ok(())
     }
+
+    fn damaged(&self, found: impl Into<String>, allowed: impl Into<String>) -> Error {
+        damaged(self.path, self.events.len() + 1, found, allowed)
+    }
+}
+
+/// The event of a line.
+fn parse_event(line: &str) -> Result<Event, Complaint> {
+    let allowed = "one event, as JSON in one line, as the program wrote it";
+    if line.is_empty() {
+        return Err(Complaint { found: "an empty line".into(), allowed: allowed.into() });
+    }
+    parse_json(line, allowed).map_err(|(_, complaint)| complaint)
+}
+
+/// The value that JSON holds, or the byte and the text of the complaint.
+pub(crate) fn parse_json<'a, T: serde::Deserialize<'a>>(json: &'a str, allowed: &str) -> Result<T, (usize, Complaint)> {
+    let complain = |key: &str, error: &serde_json::Error| {
+        // The line and the column that serde_json ends its messages with are told by themselves.
+        let message = error.to_string();
+        let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(message, _)| message);
+        let line_start = json.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum::<usize>();
+        (line_start, Complaint::new(key, message, allowed))
+    };
+    let mut deserializer = serde_json::Deserializer::from_str(json);
+    let value = serde_path_to_error::deserialize(&mut deserializer)
+        .map_err(|error| complain(&error.path().to_string(), error.inner()))?;
+    deserializer.end().map_err(|error| complain(".", &error))?;
+    Ok(value)
 }

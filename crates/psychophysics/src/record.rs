@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 use crate::event::Event;
 use crate::header::SessionHeader;
-use crate::read::{Session, parse_session};
+use crate::read::{Session, read};
 
 /// Name of the header's file.
 pub const HEADER_FILE: &str = "session.json";
@@ -63,7 +63,7 @@ impl SessionWriter {
         // Read through the locked handle: on some systems the lock keeps every other one out.
         let mut bytes = Vec::new();
         writer.file.read_to_end(&mut bytes).map_err(Error::io(&writer.path))?;
-        let session = parse_session(directory, &bytes)?;
+        let session = Session::parse(directory, &read(&directory.join(HEADER_FILE))?, &bytes)?;
         session.replay()?;
         writer.length_bytes = session.whole_lines_bytes();
         writer.drop_tail().map_err(Error::io(&writer.path))?;

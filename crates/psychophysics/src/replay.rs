@@ -4,6 +4,9 @@
 //! state of a staircase follows from seed, participant's number, protocol and answers by arithmetic that
 //! is the same on every platform.
 
+use serde_json::Value;
+
+use crate::complaint::quoted;
 use crate::error::Error;
 use crate::event::{Answered, Event, Reply};
 use crate::experiment::{Experiment, Stage};
@@ -35,10 +38,11 @@ impl Experiment {
         }
         let recorded = &answered.trial;
         let Some(expected) = self.stage().trial() else {
-            return Err(differs(index, describe(recorded), self.stage().name()));
+            let found = format!("{} trial {}", recorded.role.name(), recorded.number);
+            return Err(differs(index, found, self.stage().name()));
         };
         if expected != recorded {
-            return Err(differs(index, describe(recorded), describe(expected)));
+            return Err(trials_differ(index, recorded, expected));
         }
         let reply = Reply {
             answer: answered.answer,
@@ -57,17 +61,31 @@ fn differs(index: usize, found: impl Into<String>, allowed: impl Into<String>) -
     Error::Replay { index, found: found.into(), allowed: allowed.into() }
 }
 
-fn describe(trial: &Trial) -> String {
-    format!(
-        "{:?} trial {} of round {}: {:?}, contrast {}, texel {} px, radius {} px, right answer {:?}, phase {}",
-        trial.role,
-        trial.number,
-        trial.round,
-        trial.condition.pattern,
-        trial.condition.contrast,
-        trial.condition.texel_px,
-        trial.radius_px,
-        trial.pictures.right_answer(),
-        trial.pictures.all()[0].phase
-    )
+/// The error that names the first key in which two trials differ.
+fn trials_differ(index: usize, found: &Trial, allowed: &Trial) -> Error {
+    let place = format!("{} trial {}", found.role.name(), found.number);
+    match first_difference("trial", &tree(found), &tree(allowed)) {
+        Some((key, found, allowed)) => {
+            differs(index, format!("{key} is {} in {place}", quoted(&found)), quoted(&allowed))
+        }
+        None => differs(index, place, "another trial"),
+    }
+}
+
+/// The trial as it stands in the file.
+fn tree(trial: &Trial) -> Value {
+    serde_json::to_value(trial).unwrap_or(Value::Null)
+}
+
+/// The first leaf that differs, its key and both values.
+fn first_difference(key: &str, found: &Value, allowed: &Value) -> Option<(String, String, String)> {
+    let (Value::Object(found), Value::Object(allowed)) = (found, allowed) else {
+        return (found != allowed).then(|| (key.to_owned(), found.to_string(), allowed.to_string()));
+    };
+    let keys = allowed.keys().chain(found.keys().filter(|name| !allowed.contains_key(*name)));
+    let mut differences = keys.filter_map(|name| {
+        let value = |tree: &serde_json::Map<String, Value>| tree.get(name).cloned().unwrap_or(Value::Null);
+        first_difference(&format!("{key}.{name}"), &value(found), &value(allowed))
+    });
+    differences.next()
 }

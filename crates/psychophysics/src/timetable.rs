@@ -1,6 +1,9 @@
 //! Which trial comes next: the order of the rounds, and within a round cycles that visit every
-//! staircase that is not done once, in random order, so that no size runs ahead of the others. Lines
-//! and catch trials come between at random, so that nobody can count on what comes next.
+//! staircase that is not done once, in random order, so that no size runs ahead of the others.
+//!
+//! What a trial is for is drawn by itself, from the seed and its number: a line takes the place of a
+//! staircase's artifact in the cycle, so that neither its size, its radius nor what came before tells
+//! a line from an artifact.
 
 use crate::draw::{Draw, Purpose};
 use crate::error::Error;
@@ -67,14 +70,12 @@ impl Timetable {
         if draw.unit() < self.catch_share {
             return Some((Role::Catch, first));
         }
-        if draw.unit() < self.line_share {
-            return Some((Role::Line, open[draw.below(open.len())]));
-        }
+        let role = if draw.unit() < self.line_share { Role::Line } else { Role::Measure };
         if self.cycle.is_empty() {
             self.cycle = open;
             Draw::new(self.seed, Purpose::Interleaving, number).shuffle(&mut self.cycle);
         }
-        self.cycle.pop().map(|index| (Role::Measure, index))
+        self.cycle.pop().map(|index| (role, index))
     }
 
     /// Whether a staircase of the round asks for a further trial.

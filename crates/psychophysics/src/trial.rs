@@ -3,6 +3,8 @@
 use scumble_stimuli::{Kernel, Pattern, Shape, Stimulus};
 use serde::{Deserialize, Serialize};
 
+use crate::error::{Error, require};
+
 /// An answer to the question of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -86,6 +88,30 @@ pub struct Trial {
     pub pictures: Pictures,
 }
 
+impl Answer {
+    /// Its word in files.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Yes => "yes",
+            Self::No => "no",
+        }
+    }
+}
+
+impl Role {
+    /// Its word in files.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Practice => "practice",
+            Self::Measure => "measure",
+            Self::Line => "line",
+            Self::Catch => "catch",
+        }
+    }
+}
+
 impl Pictures {
     /// The pictures from left to right.
     pub fn all(&self) -> Vec<&Stimulus> {
@@ -136,31 +162,33 @@ impl Trial {
         answer == self.pictures.right_answer()
     }
 
-    /// What contradicts itself in a trial read from a file, in words.
-    pub(crate) fn contradiction(&self) -> Option<String> {
-        let shapes: Vec<Shape> = self.pictures.all().iter().map(|picture| picture.shape).collect();
-        let good_shapes = match (self.role, shapes.as_slice()) {
-            (_, [left, right]) => left != right && self.role != Role::Line,
-            (Role::Line, [shape]) => *shape == Shape::Line,
-            (Role::Practice, _) => true,
-            (_, shapes) => shapes == [Shape::Artifact],
-        };
-        if !good_shapes {
-            return Some(format!("a trial of role {:?} with pictures of {shapes:?}", self.role));
+    /// Refuses a trial, read from a file, that contradicts itself; the error names the key.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let is_practice = self.role == Role::Practice;
+        require(is_practice == (self.round == 0), "trial.round", self.round, "0 for practice, else 1 or more")?;
+        let has_track = matches!(self.role, Role::Measure | Role::Line);
+        let track = self.track.map_or("null".into(), |track| track.to_string());
+        let allowed = "the index of a staircase for the roles measure and line, else null";
+        require(has_track == self.track.is_some(), "trial.track", track, allowed)?;
+        for (key, length) in
+            [("trial.condition.texel_px", self.condition.texel_px), ("trial.radius_px", self.radius_px)]
+        {
+            require(length.is_finite() && length > 0.0, key, length, "a finite length above 0")?;
         }
-        if (self.role == Role::Practice) != (self.round == 0) {
-            return Some(format!("a trial of role {:?} in round {}", self.role, self.round));
-        }
-        if matches!(self.role, Role::Measure | Role::Line) != self.track.is_some() {
-            return Some(format!("a trial of role {:?} with track {:?}", self.role, self.track));
-        }
-        if !(self.radius_px > 0.0 && self.condition.texel_px > 0.0) {
-            return Some(format!("radius_px {}", self.radius_px));
-        }
-        self.pictures.all().into_iter().find_map(|picture| self.contradiction_of(picture))
+        let allowed = "a line and an artifact, or the one that the role names";
+        require(self.has_shapes_of_role(), "trial.pictures", format!("of the role {}", self.role.name()), allowed)?;
+        self.pictures.all().into_iter().try_for_each(|picture| self.check_picture(picture))
     }
 
-    fn contradiction_of(&self, picture: &Stimulus) -> Option<String> {
+    fn has_shapes_of_role(&self) -> bool {
+        match (self.role, self.pictures) {
+            (role, Pictures::Pair { left, right }) => left.shape != right.shape && role != Role::Line,
+            (Role::Practice, Pictures::Single { .. }) => true,
+            (role, Pictures::Single { picture }) => (picture.shape == Shape::Line) == (role == Role::Line),
+        }
+    }
+
+    fn check_picture(&self, picture: &Stimulus) -> Result<(), Error> {
         let Condition { pattern, contrast, kernel, texel_px } = self.condition;
         let first = self.pictures.all()[0];
         let expected = Stimulus {
@@ -174,9 +202,8 @@ impl Trial {
             tilt_rad: picture.tilt_rad,
             ..*first
         };
-        if *picture != expected {
-            return Some("pictures that differ from the trial or in more than shape, dithering and tilt".into());
-        }
-        picture.check().err().map(|error| error.to_string())
+        let allowed = "pictures of the trial's condition and radius, which differ in shape, dithering and tilt alone";
+        require(*picture == expected, "trial.pictures", "of something else", allowed)?;
+        picture.check().map_err(|error| Error::parameter("trial.pictures", error, "numbers that can be drawn"))
     }
 }
