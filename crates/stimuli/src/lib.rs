@@ -37,12 +37,18 @@
 //! # Ok::<(), scumble_stimuli::Error>(())
 //! ```
 
+mod band;
+mod density;
+mod edge;
 mod error;
+mod filter;
 mod kernel;
 mod level;
 mod picture_hash;
 mod render;
+mod rows;
 mod silhouette;
+mod step_table;
 mod stimulus;
 mod transfer;
 

@@ -15,12 +15,14 @@
 //! `0 <= k < W` and `k + 1` for `-W <= k < 0`. The origin is the middle of a riser, of the double
 //! step the middle of the wide tread, and lies on the line.
 //!
-//! A stair is a row of columns of width 1; the weight of the kernel in a column below its top is a
-//! difference of two quadrants, so `F = sum over k of Q(k + 1 - x, top - y) - Q(k - x, top - y)` over
-//! the few columns that the kernel reaches. No sampling, no error but rounding.
+//! Where the kernel ends on the right, all below the top is dark; each riser that it reaches takes a
+//! strip away, the part left of the riser between its bottom and its top. So
+//! `F = below(top of the last column - y) - sum over risers of strip`. No sampling, no error but
+//! rounding.
 
 use crate::Kernel;
-use crate::kernel::Filter;
+use crate::density::Density;
+use crate::filter::Filter;
 
 /// An edge of a shadow in units of the texel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,35 +53,57 @@ impl Silhouette {
 
     /// Part of `filter` around (`x`, `y`) that lies in shadow.
     pub(crate) fn filtered(self, filter: Filter, x: f64, y: f64) -> f64 {
-        let quadrant = |left_of: f64, below: f64| filter.quadrant(left_of - x, below - y);
         match self {
             Silhouette::Line { slope } => {
                 let length = (slope * slope + 1.0).sqrt();
                 filter.half_plane((slope * x - y) / length, [-slope / length, 1.0 / length])
             }
-            Silhouette::Step => {
-                let left_column_cut = quadrant(0.0, -0.5) - quadrant(0.0, 0.5);
-                left_column_cut + quadrant(f64::INFINITY, 0.5)
-            }
-            Silhouette::Stair => stair(filter, x, y, |_| 0.5),
-            Silhouette::DoubleStep => stair(filter, x, y, |left| if left < 0.0 { 1.0 } else { 0.0 }),
+            steps => filter.mean(|[dx, dy]| steps.under(filter.density, x + dx, y + dy)),
         }
+    }
+
+    /// Part of `density` around (`x`, `y`) that lies below the steps.
+    fn under(self, density: Density, x: f64, y: f64) -> f64 {
+        let half_width = density.half_width();
+        let hidden: f64 = self
+            .risers(x - half_width, x + half_width)
+            .map(|riser| density.strip(riser.x - x, riser.bottom - y, riser.top - y))
+            .sum();
+        density.below(self.top((x + half_width).floor()) - y) - hidden
+    }
+
+    /// Top of column `k`, which spans `k` to `k + 1`; of a line where it crosses the column's middle.
+    pub(crate) fn top(self, k: f64) -> f64 {
+        match self {
+            Silhouette::Stair => k + 0.5,
+            Silhouette::Step => {
+                if k < 0.0 {
+                    -0.5
+                } else {
+                    0.5
+                }
+            }
+            Silhouette::DoubleStep if k < 0.0 => k + 1.0,
+            Silhouette::DoubleStep => k,
+            Silhouette::Line { slope } => slope * (k + 0.5),
+        }
+    }
+
+    /// Risers of a silhouette of steps from `from` to `to`, both included, left to right.
+    pub(crate) fn risers(self, from: f64, to: f64) -> impl Iterator<Item = Riser> {
+        let first = from.ceil();
+        let count = (to.floor() - first + 1.0).max(0.0) as usize;
+        (0..count)
+            .map(move |index| first + index as f64)
+            .map(move |x| Riser { x, bottom: self.top(x - 1.0), top: self.top(x) })
+            .filter(|riser| riser.bottom < riser.top)
     }
 }
 
-/// Coverage by columns of width 1; `rise(k)`, at most 1/2 from 1/2, is the top of column k above k.
-fn stair(filter: Filter, x: f64, y: f64, rise: impl Fn(f64) -> f64) -> f64 {
-    let reach = filter.reach();
-    // The corners are at most 1 / sqrt 2 from the diagonal: further in, all is dark.
-    let depth = (x - y) * std::f64::consts::FRAC_1_SQRT_2;
-    if depth.abs() > reach + std::f64::consts::FRAC_1_SQRT_2 {
-        return if depth > 0.0 { 1.0 } else { 0.0 };
-    }
-    let first = (x - reach).ceil() - 1.0;
-    let columns = ((x + reach).floor() - first) as usize + 1;
-    (0..columns)
-        .map(|index| first + index as f64)
-        .map(|left| (left, left + rise(left)))
-        .map(|(left, top)| filter.quadrant(left + 1.0 - x, top - y) - filter.quadrant(left - x, top - y))
-        .sum()
+/// Where a silhouette of steps rises.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Riser {
+    pub(crate) x: f64,
+    pub(crate) bottom: f64,
+    pub(crate) top: f64,
 }

@@ -10,7 +10,10 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Error, Kernel};
+use crate::{Error, Kernel, MAX_SIDE_PX};
+
+/// No length is longer than a picture.
+const LONGEST_PX: f64 = MAX_SIDE_PX as f64;
 
 /// How the silhouette lies on the texels of the shadow map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -58,9 +61,9 @@ pub struct Stimulus {
     pub shape: Shape,
     /// What blurs it.
     pub kernel: Kernel,
-    /// Side of one shadow-map texel, greater than 0.
+    /// Side of one shadow-map texel, 1 to 16384: below a pixel nobody sees a step.
     pub texel_px: f64,
-    /// Radius of the kernel, at least 0.
+    /// Radius of the kernel, 0 to 16384.
     pub radius_px: f64,
     /// The lit side in the units of `encoding`, as a part of the display's brightest, 0 to 1; the
     /// shadow is black.
@@ -94,8 +97,8 @@ impl Stimulus {
         let in_range = |field, value: f64, allowed, good: bool| {
             if value.is_finite() && good { Ok(()) } else { Err(Error::Field { field, value, allowed }) }
         };
-        in_range("texel_px", self.texel_px, "a finite length above 0", self.texel_px > 0.0)?;
-        in_range("radius_px", self.radius_px, "a finite length of at least 0", self.radius_px >= 0.0)?;
+        in_range("texel_px", self.texel_px, "1 to 16384", (1.0..=LONGEST_PX).contains(&self.texel_px))?;
+        in_range("radius_px", self.radius_px, "0 to 16384", (0.0..=LONGEST_PX).contains(&self.radius_px))?;
         in_range("contrast", self.contrast, "0 to 1", (0.0..=1.0).contains(&self.contrast))?;
         in_range("phase", self.phase, "0 to 1", (0.0..=1.0).contains(&self.phase))?;
         in_range("tilt_rad", self.tilt_rad, "-pi to pi", self.tilt_rad.abs() <= PI)

@@ -6,8 +6,8 @@
 //! sRGB is the function of IEC 61966-2-1. A measured table is interpolated by the monotone piecewise
 //! cubic of Fritsch and Carlson (1980) with the slopes of Fritsch and Butland (1984): at a row
 //! between secants `d0` and `d1` over `h0` and `h1` levels the weighted harmonic mean
-//! `(w0 + w1) / (w0 / d0 + w1 / d1)`, `w0 = 2 h1 + h0`, `w1 = h1 + 2 h0`; at the ends the parabola
-//! through three rows, cut to 0 to 3 secants. It passes through every row and is strictly increasing
+//! `(w0 + w1) / (w0 / d0 + w1 / d1)`, `w0 = 2 h1 + h0`, `w1 = h1 + 2 h0`; at the ends that
+//! of the parabola through three rows, at least 0. It passes through every row and is strictly increasing
 //! between rows that are. Two rows alone describe a display whose light is proportional to its code.
 
 use crate::Error;
@@ -22,6 +22,11 @@ impl Transfer {
     /// The sRGB transfer function.
     pub fn srgb() -> Self {
         Self { light: std::array::from_fn(|level| linear_from_srgb(level as f64 / 255.0)) }
+    }
+
+    /// Light proportional to the code value.
+    pub(crate) fn proportional() -> Self {
+        Self { light: std::array::from_fn(|level| level as f64 / 255.0) }
     }
 
     /// A measured table: rows of a level and its luminance in candela per square metre.
@@ -44,11 +49,6 @@ impl Transfer {
     /// Light of a level, 0 at level 0 to 1 at level 255.
     pub fn light(&self, level: u8) -> f64 {
         self.light[usize::from(level)]
-    }
-
-    /// The highest level whose light is at most `light`; 0 for negative light.
-    pub(crate) fn level_below(&self, light: f64) -> u8 {
-        self.light.partition_point(|&of_level| of_level <= light).saturating_sub(1) as u8
     }
 }
 
@@ -114,8 +114,7 @@ fn monotone_slopes(level: &[f64], rows: &[(u8, f64)]) -> Vec<f64> {
     }
     let end = |near: usize, far: usize| {
         let (h0, h1) = (widths[near], widths[far]);
-        let parabola = ((2.0 * h0 + h1) * secants[near] - h0 * secants[far]) / (h0 + h1);
-        parabola.clamp(0.0, 3.0 * secants[near])
+        (((2.0 * h0 + h1) * secants[near] - h0 * secants[far]) / (h0 + h1)).max(0.0)
     };
     let inner = (0..last).map(|left| {
         let (w0, w1) = (2.0 * widths[left + 1] + widths[left], widths[left + 1] + 2.0 * widths[left]);
