@@ -13,7 +13,7 @@
 
 use rayon::prelude::*;
 use scumble_analysis::{Analysis, Error, Simulation};
-use scumble_psychophysics::{ObserverParameters, Protocol};
+use scumble_psychophysics::{ObserverModel, Protocol, WeibullObserver};
 
 const RATIO: f64 = 3.47;
 const BETWEEN_SD: f64 = 0.1;
@@ -37,7 +37,8 @@ struct Outcome {
 }
 
 fn cohort(protocol: &Protocol, people: u32, slope: f64, seed: u64) -> Result<Outcome, Error> {
-    let median = ObserverParameters { ratio: RATIO, slope_per_log10: slope, ..Default::default() };
+    let person = WeibullObserver { slope_per_log10: slope, ..Default::default() };
+    let median = ObserverModel::Weibull(person).with_ratio(RATIO)?;
     let simulation =
         Simulation { protocol: protocol.clone(), observers: people, seed, median, between_sd_log10: BETWEEN_SD };
     let study = simulation.study()?;
@@ -48,7 +49,7 @@ fn cohort(protocol: &Protocol, people: u32, slope: f64, seed: u64) -> Result<Out
 
     // The truth for 95 % of viewers at 10 % detection, by the observer's own function.
     let hidden = analysis.population.ratio(0.95, 0.10)?;
-    let seen = |p: f64| -(-p / (1.0 - median.lapse_probability)).ln_1p();
+    let seen = |p: f64| -(-p / (1.0 - person.lapse_probability)).ln_1p();
     let decades = (seen(analysis.population.detection_at_threshold) / seen(0.10)).log10();
     let hidden_log10 = RATIO.log10() + 1.644_853_627 * BETWEEN_SD + decades / slope;
     let mean_of_ratios = RATIO * (0.5 * (BETWEEN_SD * std::f64::consts::LN_10).powi(2)).exp();

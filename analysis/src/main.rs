@@ -13,7 +13,7 @@ use scumble_analysis::{
     Parameter, Simulation, Study, fit_count_table, fit_study, hashed_pictures, read_count_table, read_quest_config,
     read_responses, replay_session, session_directories, write_summaries,
 };
-use scumble_psychophysics::{ObserverParameters, Protocol, read_session};
+use scumble_psychophysics::{ObserverModel, Protocol, read_session};
 
 /// From the sessions of a study to relation.json, the file that a renderer reads.
 #[derive(Parser)]
@@ -147,7 +147,7 @@ fn run(command: Command) -> anyhow::Result<()> {
     match command {
         Command::Fit { sessions, out } => fit(&sessions, &out),
         Command::Simulate { out, observers, seed, protocol, ratio, between_sd, lapse } => {
-            let median = ObserverParameters { ratio, lapse_probability: lapse, ..ObserverParameters::default() };
+            let median = ObserverModel::default().with_ratio(ratio)?.with_lapse_probability(lapse);
             let protocol = Protocol::named(&protocol)?;
             let between_sd_log10 = between_sd;
             simulate(&Simulation { protocol, observers, seed, median, between_sd_log10 }, &out)

@@ -1,6 +1,6 @@
 //! Studies of simulated people: the experiment's own state machine, the real record.
 //!
-//! Person `i` of a population has the threshold `log10 c_i = log10 c + sd z_i` and answers by a Weibull
+//! Person `i` of a cohort has the threshold `log10 c_i = log10 c + sd z_i` and answers by a Weibull
 //! psychometric function; person, answers and session each have a seed of their own, drawn from the
 //! study's. Equal arguments give equal files: a simulated session has no date and stands at the Unix
 //! epoch.
@@ -10,8 +10,7 @@ use std::path::{Path, PathBuf};
 use jiff::Timestamp;
 use rayon::prelude::*;
 use scumble_psychophysics::{
-    Event, Experiment, Moment, ObserverParameters, Population, Protocol, SessionHeader, SessionWriter, Software,
-    rehearse,
+    Cohort, Event, Experiment, Moment, ObserverModel, Protocol, SessionHeader, SessionWriter, Software, rehearse,
 };
 
 use crate::{
@@ -32,7 +31,7 @@ pub struct Simulation {
     /// Everything random follows from it.
     pub seed: u64,
     /// The median person.
-    pub median: ObserverParameters,
+    pub median: ObserverModel,
     /// Standard deviation between people, log10 of the ratio.
     pub between_sd_log10: f64,
 }
@@ -62,8 +61,8 @@ impl Simulation {
     /// # Errors
     /// Those of the experiment.
     pub fn run(&self, index: u32) -> Result<(Experiment, Vec<Event>), Error> {
-        let observer = self.population().person(index)?;
-        let seed = self.population().session_seed(index);
+        let observer = self.cohort().person(index)?;
+        let seed = self.cohort().session_seed(index);
         let mut experiment = Experiment::new(self.protocol.clone(), seed, index + 1)?;
         let mut events = rehearse(&mut experiment, &observer)?;
         events.push(Event::End(Moment { at: Timestamp::UNIX_EPOCH, notes: Vec::new() }));
@@ -111,19 +110,19 @@ impl Simulation {
         Ok(directories)
     }
 
-    fn population(&self) -> Population {
-        Population { median: self.median, between_sd_log10: self.between_sd_log10, seed: self.seed }
+    fn cohort(&self) -> Cohort {
+        Cohort { median: self.median, between_sd_log10: self.between_sd_log10, seed: self.seed }
     }
 
     fn header(&self, index: u32) -> Result<SessionHeader, Error> {
         let mut header = SessionHeader::new(
             &code(index),
             self.protocol.clone(),
-            self.population().session_seed(index),
+            self.cohort().session_seed(index),
             Timestamp::UNIX_EPOCH,
             Software::of(env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")),
         );
-        header.simulated_observer = Some(*self.population().person(index)?.parameters());
+        header.simulated_observer = Some(*self.cohort().person(index)?.model());
         Ok(header)
     }
 }

@@ -6,8 +6,8 @@ use std::{cell::Cell, fs, path::Path, sync::Mutex};
 
 use scumble_analysis::{Replayed, hashed_pictures, replay_session};
 use scumble_psychophysics::{
-    EVENTS_FILE, Experiment, ObserverParameters, Protocol, Reply, SessionHeader, SessionWriter, Software, Stage,
-    WeibullObserver, read_session,
+    EVENTS_FILE, Experiment, Observer, ObserverModel, Protocol, Reply, SessionHeader, SessionWriter, Software, Stage,
+    read_session,
 };
 use scumble_stimuli::{Transfer, picture_sha256};
 
@@ -23,7 +23,7 @@ fn record(directory: &Path, task: &str) {
     let software = Software::of("test", "0");
     let header = SessionHeader::new("p-1", protocol.clone(), 5, jiff::Timestamp::UNIX_EPOCH, software);
     let mut experiment = Experiment::new(protocol, 5, header.participant_number).unwrap();
-    let person = WeibullObserver::new(ObserverParameters::default(), 1).unwrap();
+    let person = Observer::new(ObserverModel::default(), 1).unwrap();
     let mut writer = SessionWriter::create(directory, &header).unwrap();
     while *experiment.stage() != Stage::Finished {
         let Some(trial) = experiment.stage().trial().copied() else {
@@ -33,7 +33,11 @@ fn record(directory: &Path, task: &str) {
         let hash =
             |stimulus: &scumble_stimuli::Stimulus| picture_sha256(&stimulus.render(96, 64, &Transfer::srgb()).unwrap());
         let pictures_sha256 = trial.pictures.all().into_iter().map(hash).collect();
-        let reply = Reply { answer: person.answer(&trial), response_time_secs: 1.0, pictures_sha256 };
+        let reply = Reply {
+            answer: person.answer(&trial, &experiment.protocol().pictures).unwrap(),
+            response_time_secs: 1.0,
+            pictures_sha256,
+        };
         writer.append(&experiment.answer(reply).unwrap()).unwrap();
     }
 }

@@ -7,7 +7,7 @@ use std::{fs, path::Path};
 
 use scumble_analysis::{Analysis, Error, Person, RELATION, REPORT, Run, Simulation, Study, fit_study};
 use scumble_core::{Relation, RelationFile};
-use scumble_psychophysics::{EVENTS_FILE, HEADER_FILE, ObserverParameters, Protocol};
+use scumble_psychophysics::{EVENTS_FILE, HEADER_FILE, ObserverModel, Protocol, WeibullObserver};
 use scumble_stimuli::Kernel;
 
 fn simulation(observers: u32, seed: u64) -> Simulation {
@@ -15,7 +15,7 @@ fn simulation(observers: u32, seed: u64) -> Simulation {
         protocol: Protocol::two_alternative(),
         observers,
         seed,
-        median: ObserverParameters::default(),
+        median: ObserverModel::default(),
         between_sd_log10: 0.1,
     }
 }
@@ -275,7 +275,7 @@ fn options_out_of_range_are_refused_by_name() {
         (Simulation { observers: 0, ..study.clone() }, "--observers"),
         (Simulation { between_sd_log10: f64::NAN, ..study.clone() }, "--between-sd"),
         (Simulation { between_sd_log10: -0.1, ..study.clone() }, "--between-sd"),
-        (Simulation { median: ObserverParameters { ratio: 0.0, ..study.median }, ..study.clone() }, "ratio"),
+        (Simulation { median: study.median.with_thresholds_times(0.0), ..study.clone() }, "ratio"),
     ];
     for (case, name) in cases {
         let message = case.check().unwrap_err().to_string();
@@ -346,7 +346,8 @@ fn people_who_often_call_a_line_an_artifact_have_the_threshold_of_those_who_do_n
         for seed in 0..6 {
             let mut simulation = changed("yes-no", 10, |_| ());
             simulation.seed = seed;
-            simulation.median.false_alarm_probability = rate;
+            let person = WeibullObserver { false_alarm_probability: rate, ..WeibullObserver::default() };
+            simulation.median = ObserverModel::Weibull(person);
             let study = simulation.study().unwrap();
             let rates: Vec<f64> = study.people.iter().filter_map(|person| person.checks.false_alarm_rate()).collect();
             let counted = rates.iter().sum::<f64>() / 10.0;

@@ -63,6 +63,9 @@ pub enum Error {
     /// A session that another program is writing.
     #[error("{} is being written by another program; allowed is one writer", .0.display())]
     SessionInUse(PathBuf),
+    /// A picture that cannot be drawn.
+    #[error("{0}")]
+    Picture(scumble_stimuli::Error),
     /// The operating system refused a file.
     #[error("{}: {reason}", path.display())]
     Io {

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, require};
-use crate::observer::ObserverParameters;
+use crate::observer::ObserverModel;
 use crate::protocol::Protocol;
 
 /// The format of a session directory.
@@ -34,7 +34,7 @@ pub struct SessionHeader {
     pub display: Option<Display>,
     /// The simulated person who answered; `None` for a human.
     #[serde(deserialize_with = "Option::deserialize")]
-    pub simulated_observer: Option<ObserverParameters>,
+    pub simulated_observer: Option<ObserverModel>,
     /// Programs that made the session.
     pub software: Software,
 }

@@ -11,15 +11,16 @@
 //! | [`Protocol`] | every parameter of a session, with units; three come with the crate |
 //! | [`Experiment`] | the state machine: what to show, what an answer leads to |
 //! | [`SessionWriter`], [`read_session`] | the record: one line an event, on disk before the next picture |
-//! | [`WeibullObserver`], [`Population`] | simulated people whose thresholds are known |
+//! | [`Observer`], [`Cohort`] | simulated people, of three kinds, to rehearse with |
+//! | [`YesNoReport`] | hits, false alarms, d' and criterion of single pictures |
 //!
 //! QUEST's intensity is `x = log10(texel / radius) = -log10(ratio)`: a larger x is easier, as the
 //! psychometric function wants it. A response of 1 means "correct".
 //!
 //! ```
-//! use scumble_psychophysics::{Experiment, ObserverParameters, Protocol, WeibullObserver, rehearse};
+//! use scumble_psychophysics::{Experiment, Observer, ObserverModel, Protocol, rehearse};
 //!
-//! let person = WeibullObserver::new(ObserverParameters::default(), 1)?;
+//! let person = Observer::new(ObserverModel::default(), 1)?;
 //! let mut experiment = Experiment::new(Protocol::two_alternative(), 2, 0)?;
 //! let events = rehearse(&mut experiment, &person)?;
 //! assert_eq!(events.len(), 8 + experiment.progress().trials as usize);
@@ -31,20 +32,24 @@
 //! and is a diagnostic, not the result of a study.
 
 mod complaint;
+mod cohort;
+mod contour;
 mod convergence;
 mod draw;
 mod error;
 mod event;
 mod event_line;
 mod experiment;
+mod fatigue;
 mod grid;
 mod header;
 mod header_file;
+mod image_observer;
 mod latin_square;
 mod likelihood;
+mod normal;
 mod observer;
 mod picture;
-mod population;
 mod posterior;
 mod protocol;
 mod protocol_check;
@@ -57,22 +62,29 @@ mod read;
 mod record;
 mod rehearse;
 mod replay;
+mod signal_detection_observer;
 mod staircase;
 mod staircase_config;
 mod summary;
 mod text;
+mod thresholds;
 mod timetable;
 mod track;
 mod trial;
+mod weibull_observer;
+mod yes_no;
 
+pub use cohort::Cohort;
+pub use contour::Contour;
 pub use convergence::{Convergence, Reason, Verdict};
 pub use error::Error;
 pub use event::{Answered, Event, Moment, Reply};
 pub use experiment::{Experiment, Progress, Stage};
+pub use fatigue::Fatigue;
 pub use grid::Shown;
 pub use header::{Display, Luminance, SESSION_SCHEMA, SessionHeader, Software};
-pub use observer::{ObserverParameters, WeibullObserver};
-pub use population::Population;
+pub use image_observer::ImageObserver;
+pub use observer::{Observer, ObserverModel};
 pub use protocol::{
     CatchTrials, Conditions, LineTrials, Order, PictureRules, Practice, Protocol, Round, Schedule, Task,
 };
@@ -83,8 +95,12 @@ pub use quest_plus::{QuestPlus, QuestPlusConfig};
 pub use read::{Session, read_session};
 pub use record::{EVENTS_FILE, HEADER_FILE, SessionWriter};
 pub use rehearse::rehearse;
+pub use signal_detection_observer::{EXPONENT_OF_SLOPE_3_5, SignalDetectionObserver};
 pub use staircase::Staircase;
 pub use staircase_config::{StaircaseConfig, StaircaseMethod};
 pub use summary::QuestSummary;
+pub use thresholds::{THRESHOLD_PROBABILITY, Thresholds};
 pub use track::{Estimate, Track};
 pub use trial::{Answer, Condition, Pictures, Role, Trial};
+pub use weibull_observer::WeibullObserver;
+pub use yes_no::{YesNoCounts, YesNoReport, YesNoStatistics};

@@ -146,7 +146,7 @@ fn a_rest_stands_before_every_round() {
                 assert_eq!(progress.trials + 1, trial.number);
                 assert!(progress.trials < progress.trials_at_least);
                 assert!(progress.trials_at_least <= progress.trials_at_most);
-                experiment.answer(reply(person.answer(&trial), 1.0)).unwrap();
+                experiment.answer(reply(person.answer(&trial, &experiment.protocol().pictures).unwrap(), 1.0)).unwrap();
             }
             Stage::Rest { round, rounds, .. } => {
                 rests.push((round, rounds));

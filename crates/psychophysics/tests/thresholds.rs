@@ -3,26 +3,24 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 use scumble_psychophysics::{
-    Answer, Condition, Convergence, Experiment, ObserverParameters, Population, Protocol, Reply, Stage, Track,
-    WeibullObserver, rehearse,
+    Answer, Cohort, Convergence, Experiment, Observer, ObserverModel, Protocol, Reply, Stage, Track, rehearse,
 };
-use scumble_stimuli::{Kernel, Pattern};
 
-fn population() -> Population {
-    Population { median: ObserverParameters::default(), between_sd_log10: 0.1, seed: 77 }
+fn cohort() -> Cohort {
+    Cohort { median: ObserverModel::default(), between_sd_log10: 0.1, seed: 77 }
 }
 
 /// Errors of the estimates in log10 of the ratio, over every QUEST of `people` sessions.
 fn errors_log10(protocol: &Protocol, people: u32) -> Vec<f64> {
-    let population = population();
+    let cohort = cohort();
     (0..people)
         .flat_map(|index| {
-            let person = population.person(index).unwrap();
-            let seed = population.session_seed(index);
+            let person = cohort.person(index).unwrap();
+            let seed = cohort.session_seed(index);
             let mut experiment = Experiment::new(protocol.clone(), seed, 0).unwrap();
             rehearse(&mut experiment, &person).unwrap();
             let error = |track: &Track| {
-                let truth = person.parameters().threshold_ratio(track.condition());
+                let truth = person.model().threshold_ratio(track.condition()).unwrap();
                 (track.estimate().ratio / truth).log10()
             };
             experiment.tracks().iter().map(error).collect::<Vec<_>>()
@@ -59,75 +57,6 @@ fn the_default_protocol_finds_the_threshold_within_one_and_a_half_percent_on_ave
 }
 
 #[test]
-fn a_person_is_right_as_often_as_the_psychometric_function_says() {
-    let mut protocol = Protocol::two_alternative();
-    protocol.practice.ratios.clear();
-    let mut experiment = Experiment::new(protocol, 1, 0).unwrap();
-    while !matches!(experiment.stage(), Stage::Trial(_)) {
-        experiment.proceed().unwrap();
-    }
-    let mut trial = *experiment.stage().trial().unwrap();
-    let parameters = ObserverParameters::default();
-    let threshold = parameters.threshold_ratio(&trial.condition);
-    for (factor, probability) in [(1.0, 0.82), (0.1, 0.995), (10.0, 0.5)] {
-        trial.radius_px = factor * threshold * trial.condition.texel_px;
-        assert!((parameters.probability_correct(&trial) - probability).abs() < 5e-4);
-        let right = (0..4000).filter(|seed| {
-            let person = WeibullObserver::new(parameters, *seed).unwrap();
-            trial.is_correct(person.answer(&trial))
-        });
-        let share = right.count() as f64 / 4000.0;
-        let standard_error = (probability * (1.0 - probability) / 4000.0f64).sqrt();
-        assert!((share - probability).abs() < 4.0 * standard_error, "{factor}: {share}");
-    }
-}
-
-#[test]
-fn thresholds_of_the_conditions_are_the_published_ones() {
-    let condition = |pattern, contrast, texel_px| Condition { pattern, contrast, texel_px, kernel: Kernel::Disc };
-    let person = ObserverParameters::default();
-    let ratio = |c| person.threshold_ratio(&c);
-    assert!((ratio(condition(Pattern::Step, 1.0, 5.0)) - 3.47).abs() < 1e-12);
-    assert!((ratio(condition(Pattern::Step, 1.0, 20.0)) - 3.47).abs() < 1e-12);
-    assert!((ratio(condition(Pattern::Stair, 1.0, 10.0)) - 2.5).abs() < 1e-12);
-    assert!((ratio(condition(Pattern::Step, 0.5, 10.0)) - 0.95 * 3.47).abs() < 1e-12);
-}
-
-#[test]
-fn people_are_log_normal_about_the_median_person() {
-    let logs: Vec<f64> = (0..2000).map(|i| population().person(i).unwrap().parameters().ratio.log10()).collect();
-    let (mean, sd, standard_error) = moments(&logs);
-    assert!((mean - 3.47f64.log10()).abs() < 4.0 * standard_error, "{mean}");
-    assert!((sd - 0.1).abs() < 0.007, "{sd}");
-}
-
-#[test]
-fn a_person_is_the_same_each_time_and_different_from_the_next() {
-    let population = population();
-    assert_eq!(population.person(3).unwrap(), population.person(3).unwrap());
-    assert_ne!(population.person(3).unwrap(), population.person(4).unwrap());
-    assert_ne!(population.session_seed(3), population.session_seed(4));
-}
-
-#[test]
-fn parameters_of_a_person_out_of_range_are_refused_by_name() {
-    let good = ObserverParameters::default();
-    let broken = [
-        ("ratio", ObserverParameters { ratio: 0.0, ..good }),
-        ("stair_factor", ObserverParameters { stair_factor: f64::NAN, ..good }),
-        ("half_contrast_factor", ObserverParameters { half_contrast_factor: -1.0, ..good }),
-        ("delta", ObserverParameters { lapse_probability: 1.0, ..good }),
-        ("beta", ObserverParameters { slope_per_log10: 0.0, ..good }),
-    ];
-    for (name, parameters) in broken {
-        let message = WeibullObserver::new(parameters, 1).unwrap_err().to_string();
-        assert!(message.starts_with(&format!("{name} is")), "{message}");
-    }
-    let negative = Population { between_sd_log10: -0.1, ..population() };
-    assert!(negative.person(0).is_err());
-}
-
-#[test]
 fn a_prior_two_log_units_off_is_not_called_converged_where_its_spread_alone_says_so() {
     // Kreuzer 2017's prior read literally: 3 % of the texel, with a coefficient of variation of 1.
     let mut literal = Protocol::two_alternative();
@@ -146,11 +75,11 @@ fn a_prior_two_log_units_off_is_not_called_converged_where_its_spread_alone_says
     let wrong_but_converged = |protocol: &Protocol| {
         let mut count = 0;
         for seed in 0..25 {
-            let person = WeibullObserver::new(ObserverParameters::default(), seed).unwrap();
+            let person = Observer::new(ObserverModel::default(), seed).unwrap();
             let mut experiment = Experiment::new(protocol.clone(), seed, 0).unwrap();
             rehearse(&mut experiment, &person).unwrap();
             for track in experiment.tracks() {
-                let truth = person.parameters().threshold_ratio(track.condition());
+                let truth = person.model().threshold_ratio(track.condition()).unwrap();
                 let error_log10 = (track.estimate().ratio / truth).log10();
                 let is_wrong = error_log10.abs() > 0.3;
                 count += u32::from(is_wrong && track.verdict().is_converged());

@@ -6,8 +6,8 @@
 use std::path::Path;
 
 use scumble_psychophysics::{
-    Answer, Answered, EVENTS_FILE, Event, Experiment, HEADER_FILE, Moment, ObserverParameters, Protocol, Reply,
-    SessionHeader, SessionWriter, Software, Stage, WeibullObserver, rehearse,
+    Answer, Answered, EVENTS_FILE, Event, Experiment, HEADER_FILE, Moment, Observer, ObserverModel, Protocol, Reply,
+    SessionHeader, SessionWriter, Software, Stage, rehearse,
 };
 
 /// The protocols that come with the crate.
@@ -32,8 +32,8 @@ pub fn small(name: &str) -> Protocol {
     protocol
 }
 
-pub fn observer(seed: u64) -> WeibullObserver {
-    WeibullObserver::new(ObserverParameters::default(), seed).unwrap()
+pub fn observer(seed: u64) -> Observer {
+    Observer::new(ObserverModel::default(), seed).unwrap()
 }
 
 /// A whole session: the machine at its end, and what it recorded.
@@ -57,9 +57,9 @@ pub fn reply(answer: Answer, response_time_secs: f64) -> Reply {
 }
 
 /// What `person` replies to the trial on show, without pictures.
-pub fn reply_of(person: &WeibullObserver, experiment: &Experiment) -> Reply {
+pub fn reply_of(person: &Observer, experiment: &Experiment) -> Reply {
     let trial = experiment.stage().trial().unwrap();
-    reply(person.answer(trial), person.response_time_secs(trial))
+    reply(person.answer(trial, &experiment.protocol().pictures).unwrap(), person.response_time_secs(trial))
 }
 
 /// Goes through the session, and calls `look` at every stage before it is left.
