@@ -31,6 +31,7 @@
 //! It does not fit a relation to sessions; that is the analysis. QUEST's estimate steers the session
 //! and is a diagnostic, not the result of a study.
 
+mod beta_posterior;
 mod complaint;
 mod cohort;
 mod contour;
@@ -74,6 +75,7 @@ mod trial;
 mod weibull_observer;
 mod yes_no;
 
+pub use beta_posterior::{BetaPosterior, BetaRow};
 pub use cohort::Cohort;
 pub use contour::Contour;
 pub use convergence::{Convergence, Reason, Verdict};
