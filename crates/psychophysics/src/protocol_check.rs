@@ -70,10 +70,9 @@ impl Protocol {
     fn check_texels(&self) -> Result<(), Error> {
         let fits = |texel_px: f64| {
             let (smallest_px, largest_px) = self.radius_range_px(texel_px);
-            texel_px.is_normal() && texel_px > 0.0 && smallest_px < largest_px
+            texel_px >= scumble_stimuli::MIN_TEXEL_PX && smallest_px < largest_px
         };
-        let allowed =
-            "above 0 and small enough that a radius fits between ratio_min texels and half the picture less a texel";
+        let allowed = "1 pixel or more and small enough that a radius fits between ratio_min texels and half the picture less a texel";
         check_each("conditions.texels_px", &self.conditions.texels_px, fits, allowed)?;
         require(fits(self.practice.texel_px), "practice.texel_px", self.practice.texel_px, allowed)?;
         let Some(catch) = &self.catch_trials else { return Ok(()) };

@@ -61,3 +61,6 @@ pub use transfer::Transfer;
 
 /// Longest side of a picture, in pixels: the largest texture of common devices.
 pub const MAX_SIDE_PX: u32 = 16_384;
+
+/// Smallest texel, in pixels: steps below a pixel are not on the screen.
+pub const MIN_TEXEL_PX: f64 = 1.0;

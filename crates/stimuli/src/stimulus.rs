@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Error, Kernel, MAX_SIDE_PX};
+use crate::{Error, Kernel, MAX_SIDE_PX, MIN_TEXEL_PX};
 
 /// No length is longer than a picture.
 const LONGEST_PX: f64 = MAX_SIDE_PX as f64;
@@ -97,7 +97,7 @@ impl Stimulus {
         let in_range = |field, value: f64, allowed, good: bool| {
             if value.is_finite() && good { Ok(()) } else { Err(Error::Field { field, value, allowed }) }
         };
-        in_range("texel_px", self.texel_px, "1 to 16384", (1.0..=LONGEST_PX).contains(&self.texel_px))?;
+        in_range("texel_px", self.texel_px, "1 to 16384", (MIN_TEXEL_PX..=LONGEST_PX).contains(&self.texel_px))?;
         in_range("radius_px", self.radius_px, "0 to 16384", (0.0..=LONGEST_PX).contains(&self.radius_px))?;
         in_range("contrast", self.contrast, "0 to 1", (0.0..=1.0).contains(&self.contrast))?;
         in_range("phase", self.phase, "0 to 1", (0.0..=1.0).contains(&self.phase))?;
