@@ -21,6 +21,19 @@ pub enum Error {
         /// Height asked for.
         height_px: u32,
     },
+    /// A kernel of taps, under which no radius hides the texels.
+    #[error("a kernel of 25 taps; allowed are disc, box, gauss2 and gauss3")]
+    Taps,
+    /// The searched ratios hold no reference filter.
+    #[error(
+        "the pictures differ by {levels} levels at the ratio 64; allowed is a tolerance above that, not {tolerance}"
+    )]
+    Reference {
+        /// Levels allowed.
+        tolerance: f64,
+        /// Levels found.
+        levels: f64,
+    },
     /// The measured table is not that of a display.
     #[error("{0}")]
     Table(String),
