@@ -111,9 +111,7 @@ impl IsoContour {
         let places = match self.silhouette {
             Silhouette::Stair => self.period(),
             Silhouette::DoubleStep => self.around_origin(TRANSITION_RADII * self.core_radius() + 2.0 * SQRT_2),
-            Silhouette::Step | Silhouette::Line { .. } => {
-                self.around_origin(TRANSITION_RADII * self.core_radius())
-            }
+            Silhouette::Step | Silhouette::Line { .. } => self.around_origin(TRANSITION_RADII * self.core_radius()),
         };
         let offsets: Vec<f64> = places.iter().map(|&along| self.offset(along)).collect();
         let rise = offsets.windows(3).map(|three| (three[2] - three[0]).abs()).fold(0.0, f64::max);

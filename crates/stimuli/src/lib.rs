@@ -11,6 +11,8 @@
 //! 3. [`Stimulus`]: one picture of the experiment as a handful of numbers, and
 //!    [`Stimulus::render`], which turns it into 8 bits at physical pixels of a display whose light
 //!    the [`Transfer`] knows.
+//! 4. [`IsoContour`] and [`reference_ratio`]: how far an artifact is from its line, as the bend of its
+//!    contours and as the ratio beyond which it stays within a few levels.
 //!
 //! Not here: which picture to show (`scumble-psychophysics`), and how (`scumble-study`).
 //!

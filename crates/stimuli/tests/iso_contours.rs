@@ -19,11 +19,11 @@ struct Row {
 
 impl Row {
     fn contour(&self) -> IsoContour {
-        IsoContour::of(self.silhouette, self.kernel, self.ratio, self.level).unwrap()
+        IsoContour::of(self.silhouette, self.kernel, self.ratio, self.level).expect("a row in range")
     }
 
     fn number(&self, column: usize) -> f64 {
-        self.cells[column].parse().unwrap()
+        self.cells[column].parse().expect("a table as its README says")
     }
 
     fn is(&self, silhouette: Silhouette) -> bool {
@@ -34,17 +34,17 @@ impl Row {
 fn table() -> Vec<Row> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/iso_contours.csv");
     let rows: Vec<Row> = csv::Reader::from_path(path)
-        .unwrap()
+        .expect("a table as its README says")
         .records()
         .map(|record| {
-            let cells = record.unwrap();
+            let cells = record.expect("a table as its README says");
             let silhouette = match &cells[0] {
                 "stair" => Silhouette::Stair,
                 "step" => Silhouette::Step,
                 other => panic!("pattern {other:?}"),
             };
-            let kernel = Kernel::from_name(&cells[1]).unwrap();
-            let [ratio, level] = [2, 3].map(|column: usize| cells[column].parse().unwrap());
+            let kernel = Kernel::from_name(&cells[1]).expect("a table as its README says");
+            let [ratio, level] = [2, 3].map(|column: usize| cells[column].parse().expect("a table as its README says"));
             Row { silhouette, kernel, ratio, level, cells }
         })
         .collect();

@@ -63,9 +63,8 @@ fn rounded_pictures_differ_far_beyond_the_reference_ratio() {
     assert!(STAIR.largest_difference(ratio).unwrap() < 0.2);
     let level = |edge: Silhouette, x: f64, y: f64| (255.0 * edge.coverage(Kernel::Disc, ratio, x, y)).round();
     let places = (0..20).flat_map(|i| (-2000..2000).map(move |j| (f64::from(i) / 20.0, f64::from(j) / 100.0)));
-    let differing = places.filter(|&(x, y)| {
-        level(Silhouette::Stair, x, x + y) != level(Silhouette::Line { slope: 1.0 }, x, x + y)
-    });
+    let differing =
+        places.filter(|&(x, y)| level(Silhouette::Stair, x, x + y) != level(Silhouette::Line { slope: 1.0 }, x, x + y));
     assert!(differing.count() > 100);
 }
 
