@@ -14,7 +14,7 @@
 //! 4. **Tilt.** The direction at a column is that of the line fitted to the heights of the m columns on
 //!    either side, `atan(sum k y_k / sum k^2)`; its standard error is
 //!    `sigma sqrt(3 / (m (m + 1) (2 m + 1)))`, and m is the smallest that brings it to
-//!    [`TILT_NOISE_RAD`]: 1 to 5 columns for radii of 5 to 100 pixels. Longer would flatten the steps.
+//!    [`TILT_NOISE_RAD`]: 1 to 4 columns for radii of 5 to 120 pixels. Longer would flatten the steps.
 //! 5. **Straightness.** A contour's largest tilt is measured from its median direction, which is that of
 //!    a step's treads and of a stair's diagonal, whatever the picture's width. (From the least-squares
 //!    line it would depend on the width: by 1.5 a / W for a step.)
@@ -28,9 +28,9 @@ use scumble_stimuli::Transfer;
 /// profile deviates there from a straight line by 0.0004 of the range.
 const BAND: f64 = 0.1;
 
-/// Standard error of a tilt that the display's levels may cause; a tenth of the internal noise of a person
-/// with the published threshold.
-const TILT_NOISE_RAD: f64 = 0.01;
+/// Standard error of a tilt that the display's levels may cause: a seventh of the internal noise of a person
+/// with the published threshold. At 0.01 the waves of a stair of 5 pixels would already be flattened.
+const TILT_NOISE_RAD: f64 = 0.015;
 
 /// A contour as a height for each column.
 #[derive(Clone, Debug, PartialEq)]

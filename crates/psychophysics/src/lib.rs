@@ -32,8 +32,8 @@
 //! and is a diagnostic, not the result of a study.
 
 mod beta_posterior;
-mod complaint;
 mod cohort;
+mod complaint;
 mod contour;
 mod convergence;
 mod draw;
