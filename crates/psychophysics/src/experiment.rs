@@ -14,7 +14,7 @@ use crate::picture::{Request, draw_trial};
 use crate::protocol::Protocol;
 use crate::timetable::Timetable;
 use crate::track::Track;
-use crate::trial::{Condition, Role, Trial};
+use crate::trial::{Answer, Condition, Role, Trial};
 
 /// What is to be shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +27,8 @@ pub enum Stage {
     Feedback {
         /// Whether it was.
         correct: bool,
+        /// The right one.
+        right_answer: Answer,
     },
     /// A trial without feedback.
     Trial(Trial),
@@ -68,7 +70,7 @@ impl Stage {
 /// How far a session is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Progress {
-    /// Trials answered that a staircase learned from.
+    /// Trials answered after practice, whatever their role.
     pub trials: u32,
     /// Fewest measured trials of the whole session, given the answers so far.
     pub trials_at_least: u32,
@@ -138,7 +140,7 @@ impl Experiment {
         let answered = Answered { trial, answer, correct, response_time_secs, pictures_sha256 };
         if trial.role == Role::Practice {
             self.practised += 1;
-            self.stage = Stage::Feedback { correct };
+            self.stage = Stage::Feedback { correct, right_answer: trial.pictures.right_answer() };
         } else {
             self.learn(&trial, correct)?;
             self.answered += 1;

@@ -124,7 +124,7 @@ fn practice_gives_feedback_and_teaches_no_quest() {
         let event = experiment.answer(reply(side, 0.5)).unwrap();
         let correct = trial.is_correct(side);
         assert!(matches!(event, Event::Practice(answered) if answered.correct == correct));
-        assert_eq!(*experiment.stage(), Stage::Feedback { correct });
+        assert_eq!(*experiment.stage(), Stage::Feedback { correct, right_answer: trial.pictures.right_answer() });
         experiment.proceed().unwrap();
     }
     let first_rest = Stage::Rest { round: 1, rounds: 4, within_round: false };
