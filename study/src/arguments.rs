@@ -1,16 +1,16 @@
 //! The command line: who takes part, with what protocol, where the session goes.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::Context;
 use clap::Parser;
 use jiff::Timestamp;
 use scumble_psychophysics::{Protocol, SessionHeader, Software};
 
 /// Measure how much a shadow's edge must be blurred before its steps vanish
 ///
-/// Two pictures, one question: "Which one was the line?" The arrow keys, F and J, or the buttons
-/// answer; Escape pauses. A session takes about 25 minutes and may be interrupted at any time.
+/// Pictures of blurred shadow edges and one question: "Which one was the line?" of two, or "Was the
+/// original image a line?" of one. The arrow keys, F and J, or the buttons answer, for one picture
+/// also Y and N; Escape pauses. A session takes about 25 minutes and may be interrupted at any time.
 #[derive(Parser, Debug)]
 #[command(name = "scumble-study", version, after_help = EXAMPLES)]
 pub(crate) struct Arguments {
@@ -22,8 +22,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "CODE", required_if_eq("resume", "true"))]
     pub(crate) participant: Option<String>,
 
-    /// `two-alternative`, or a file ending in .json with the `protocol` of a session.json
-    #[arg(long, value_name = "NAME|FILE.json", default_value = "two-alternative")]
+    /// Number of the participant, which a protocol with `order = "latin_square"` takes the order of
+    /// the rounds from [default: the number at the end of the code, or 0]
+    #[arg(long, value_name = "N", conflicts_with = "resume")]
+    pub(crate) participant_number: Option<u32>,
+
+    /// `published`, `two-alternative`, `yes-no`, or a file that ends in .toml
+    #[arg(long, value_name = "NAME|FILE.toml", default_value = "two-alternative")]
     pub(crate) protocol: String,
 
     /// Number from which every draw of the session follows [default: the time]
@@ -56,8 +61,18 @@ Examples:
       a session of participant p07, written to study1/p07
   scumble-study --data study1 --participant p07 --resume
       goes on where it was interrupted
+  scumble-study --data study2 --participant p07 --protocol yes-no
+      one picture at a time, half of them lines; p07 has the order of rounds of participant 7
+  scumble-study --data study3 --participant ab --participant-number 3 --protocol short.toml
+      a protocol of your own; begin with a copy of crates/psychophysics/protocols/yes-no.toml
   scumble-analysis fit study1 --out study1-result
       fits the relation to every session of the study
+
+Protocols:
+  two-alternative  two pictures, which one was the line? Use it for thresholds.
+  yes-no           one picture, was it a line? Lines among them measure how readily a person says no.
+  published        the yes-no task of Kreuzer 2017, without lines among the trials that count: for a
+                   replication only, because a habit of saying no looks like good eyes.
 
 The session is two files: session.json says what was asked of whom on which display, events.jsonl
 holds one answer a line, on disk before the next picture is drawn. An existing session is never
@@ -73,9 +88,10 @@ impl Arguments {
     pub(crate) fn header(&self) -> anyhow::Result<SessionHeader> {
         let software = Software::of("scumble-study", env!("CARGO_PKG_VERSION"));
         let seed = self.seed.unwrap_or_else(|| self.started_at.as_microsecond().unsigned_abs());
-        let protocol = read_protocol(&self.protocol)?;
+        let protocol = Protocol::open(&self.protocol)?;
         let code = self.participant_code();
-        let header = SessionHeader::new(&code, protocol, seed, self.started_at, software);
+        let mut header = SessionHeader::new(&code, protocol, seed, self.started_at, software);
+        header.participant_number = self.participant_number.unwrap_or(header.participant_number);
         header.check()?;
         Ok(header)
     }
@@ -98,15 +114,4 @@ fn px_per_degree(text: &str) -> Result<f64, String> {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("allowed is a number above 0".to_owned()),
     }
-}
-
-/// The protocol of a name or of a file.
-fn read_protocol(name: &str) -> anyhow::Result<Protocol> {
-    if !name.ends_with(".json") {
-        return Protocol::named(name).context("--protocol also takes a file that ends in .json");
-    }
-    let text = std::fs::read_to_string(Path::new(name)).with_context(|| name.to_owned())?;
-    let protocol: Protocol = serde_json::from_str(&text).with_context(|| name.to_owned())?;
-    protocol.check().with_context(|| name.to_owned())?;
-    Ok(protocol)
 }

@@ -2,17 +2,14 @@
 
 use eframe::egui;
 use egui::Key;
-use scumble_psychophysics::Side;
+use scumble_psychophysics::Answer;
 
 use crate::screen::Action;
 
-/// The side that a key pressed in this frame names; a key that is held down counts once.
-pub(crate) fn side(context: &egui::Context) -> Option<Side> {
-    pressed(context).into_iter().find_map(|key| match key {
-        Key::ArrowLeft | Key::F => Some(Side::Left),
-        Key::ArrowRight | Key::J => Some(Side::Right),
-        _ => None,
-    })
+/// The one of the two answers, left and right on the screen, that a key pressed in this frame gives;
+/// a key that is held down counts once.
+pub(crate) fn answer(context: &egui::Context, answers: [Answer; 2]) -> Option<Answer> {
+    pressed(context).into_iter().find_map(|key| answer_of(key, answers))
 }
 
 /// `action` if the space bar or the return key was pressed in this frame.
@@ -25,6 +22,17 @@ pub(crate) fn pause(context: &egui::Context) -> bool {
     pressed(context).contains(&Key::Escape)
 }
 
+/// What a key answers: the arrows, F and J by the place of the answer, Y and N by its word.
+fn answer_of(key: Key, answers: [Answer; 2]) -> Option<Answer> {
+    match key {
+        Key::ArrowLeft | Key::F => Some(answers[0]),
+        Key::ArrowRight | Key::J => Some(answers[1]),
+        Key::Y => answers.into_iter().find(|answer| *answer == Answer::Yes),
+        Key::N => answers.into_iter().find(|answer| *answer == Answer::No),
+        _ => None,
+    }
+}
+
 /// Keys that went down in this frame, in order.
 fn pressed(context: &egui::Context) -> Vec<Key> {
     let down = |event: &egui::Event| match event {
@@ -32,4 +40,19 @@ fn pressed(context: &egui::Context) -> Vec<Key> {
         _ => None,
     };
     context.input(|input| input.events.iter().filter_map(down).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arrows_f_and_j_name_a_place_and_y_and_n_a_word() {
+        let given = |answers: [Answer; 2]| {
+            [Key::ArrowLeft, Key::F, Key::Y, Key::ArrowRight, Key::J, Key::N, Key::Space].map(|k| answer_of(k, answers))
+        };
+        let [left, right, yes, no] = [Answer::Left, Answer::Right, Answer::Yes, Answer::No].map(Some);
+        assert_eq!(given([Answer::Left, Answer::Right]), [left, left, None, right, right, None, None]);
+        assert_eq!(given([Answer::Yes, Answer::No]), [yes, yes, yes, no, no, no, None]);
+    }
 }

@@ -1,4 +1,4 @@
-//! `scumble-study`: the window in which a person says which of two blurred edges was the line.
+//! `scumble-study`: the window in which a person tells blurred straight edges from blurred steps.
 //!
 //! The program is a thin shell. [`scumble_psychophysics`] decides what comes next and
 //! [`scumble_stimuli`] draws it; the shell shows pictures texel for pixel, measures response times,
@@ -43,7 +43,7 @@ fn run(arguments: &Arguments) -> anyhow::Result<()> {
         (recorder, experiment, Start::Resumed { notices })
     } else {
         let header = arguments.header()?;
-        let experiment = Experiment::new(header.protocol.clone(), header.seed)?;
+        let experiment = Experiment::new(header.protocol.clone(), header.seed, header.participant_number)?;
         let recorder = Recorder::plan(&directory, header, arguments.px_per_degree)?;
         (recorder, experiment, Start::Fresh)
     };

@@ -6,24 +6,35 @@
 
 use eframe::egui;
 use egui::{Color32, Mesh, Pos2, Rect, Shape, TextureHandle, TextureOptions, Vec2};
-use scumble_stimuli::{Stimulus, Transfer};
+use scumble_stimuli::{Stimulus, Transfer, picture_sha256};
 
 /// A picture on the GPU.
-pub(crate) fn upload(
-    context: &egui::Context,
-    stimulus: &Stimulus,
-    size_px: [u32; 2],
-) -> Result<TextureHandle, scumble_stimuli::Error> {
-    let picture = stimulus.render(size_px[0], size_px[1], &Transfer::srgb())?;
-    let image = egui::ColorImage::from_gray(size_px.map(|side| side as usize), picture.as_raw());
-    Ok(context.load_texture("stimulus", image, TextureOptions::NEAREST))
+pub(crate) struct Picture {
+    texture: TextureHandle,
+    /// SHA-256 of the bytes that were uploaded.
+    pub(crate) sha256: String,
+}
+
+impl Picture {
+    /// Draws a stimulus and uploads it. Levels are those of sRGB, the standard that an unmeasured
+    /// display comes nearest to.
+    pub(crate) fn new(
+        context: &egui::Context,
+        stimulus: &Stimulus,
+        size_px: [u32; 2],
+    ) -> Result<Self, scumble_stimuli::Error> {
+        let picture = stimulus.render(size_px[0], size_px[1], &Transfer::srgb())?;
+        let image = egui::ColorImage::from_gray(size_px.map(|side| side as usize), picture.as_raw());
+        let texture = context.load_texture("stimulus", image, TextureOptions::NEAREST);
+        Ok(Self { texture, sha256: picture_sha256(&picture) })
+    }
 }
 
 /// Draws a picture with its centre as near to `centre` as whole physical pixels allow, and gives
 /// the place it took.
-pub(crate) fn paint(painter: &egui::Painter, picture: &TextureHandle, centre: Pos2) -> Rect {
-    let rect = pixel_rect(centre, picture.size(), painter.pixels_per_point());
-    let mut mesh = Mesh::with_texture(picture.id());
+pub(crate) fn paint(painter: &egui::Painter, picture: &Picture, centre: Pos2) -> Rect {
+    let rect = pixel_rect(centre, picture.texture.size(), painter.pixels_per_point());
+    let mut mesh = Mesh::with_texture(picture.texture.id());
     let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
     mesh.add_rect_with_uv(rect, whole, Color32::WHITE);
     painter.add(Shape::mesh(mesh));

@@ -7,10 +7,9 @@
 use std::time::{Duration, Instant};
 
 use eframe::egui;
-use egui::TextureHandle;
-use scumble_psychophysics::Trial;
+use scumble_psychophysics::{Answer, Reply, Trial};
 
-use crate::pixels;
+use crate::pixels::Picture;
 
 /// Length of the empty interval.
 const BLANK: Duration = Duration::from_millis(500);
@@ -20,7 +19,8 @@ pub(crate) struct Presentation {
     trial: Trial,
     opened_at: Instant,
     blank_is_on_screen: bool,
-    pictures: Option<[TextureHandle; 2]>,
+    /// From left to right.
+    pictures: Option<Vec<Picture>>,
     shown_at: Option<Instant>,
 }
 
@@ -42,9 +42,9 @@ impl Presentation {
             return Ok(());
         }
         if self.blank_is_on_screen && self.pictures.is_none() {
-            let left = pixels::upload(context, &self.trial.left, size_px)?;
-            let right = pixels::upload(context, &self.trial.right, size_px)?;
-            self.pictures = Some([left, right]);
+            let stimuli = self.trial.pictures.all().into_iter();
+            let pictures = stimuli.map(|stimulus| Picture::new(context, stimulus, size_px));
+            self.pictures = Some(pictures.collect::<Result<_, _>>()?);
         }
         self.blank_is_on_screen = true;
         let rest = BLANK.saturating_sub(self.opened_at.elapsed());
@@ -56,13 +56,15 @@ impl Presentation {
         Ok(())
     }
 
-    /// The pictures, left and right, once the interval is over.
-    pub(crate) fn pictures(&self) -> Option<&[TextureHandle; 2]> {
-        self.shown_at.and(self.pictures.as_ref())
+    /// The pictures from left to right, once the interval is over.
+    pub(crate) fn pictures(&self) -> Option<&[Picture]> {
+        self.shown_at.and(self.pictures.as_deref())
     }
 
-    /// Seconds since the pictures appeared; `None` before.
-    pub(crate) fn response_time_secs(&self) -> Option<f64> {
-        self.shown_at.map(|shown_at| shown_at.elapsed().as_secs_f64())
+    /// What `answer`, given now, tells the experiment; `None` before the pictures appeared.
+    pub(crate) fn reply(&self, answer: Answer) -> Option<Reply> {
+        let response_time_secs = self.shown_at?.elapsed().as_secs_f64();
+        let pictures_sha256 = self.pictures()?.iter().map(|picture| picture.sha256.clone()).collect();
+        Some(Reply { answer, response_time_secs, pictures_sha256 })
     }
 }

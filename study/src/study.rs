@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use eframe::egui;
-use scumble_psychophysics::{Display, Event, Experiment, Side, Stage};
+use scumble_psychophysics::{Answer, Display, Event, Experiment, Stage};
 
 use crate::keys;
 use crate::presentation::Presentation;
@@ -83,8 +83,10 @@ impl Study {
                 let presentation = self.presentation.insert(presentation);
                 screen::trial(ui, presentation, &self.experiment)?
             }
-            Stage::Feedback { correct } => screen::feedback(ui, correct),
-            Stage::Rest { round, rounds } => screen::rest(ui, round, rounds),
+            Stage::Feedback { correct, right_answer } => screen::feedback(ui, correct, right_answer),
+            Stage::Rest { round, rounds, within_round } => {
+                screen::rest(ui, self.experiment.protocol().task, round, rounds, within_round)
+            }
             Stage::Finished => screen::finished(ui),
         };
         Ok(if asked_to_pause { Some(Action::Pause) } else { action })
@@ -97,7 +99,7 @@ impl Study {
                 self.recorder.begin(display(frame))?;
                 self.experiment.proceed()?;
             }
-            Action::Answer(side) => self.answer(side)?,
+            Action::Answer(answer) => self.answer(answer)?,
             Action::Pause => {
                 self.recorder.append(&Event::Pause(moment(Vec::new())))?;
                 self.presentation = None;
@@ -119,10 +121,9 @@ impl Study {
         Ok(())
     }
 
-    fn answer(&mut self, side: Side) -> anyhow::Result<()> {
-        let shown = self.presentation.take().and_then(|shown| shown.response_time_secs());
-        if let Some(response_time_secs) = shown {
-            let event = self.experiment.answer(side, response_time_secs)?;
+    fn answer(&mut self, answer: Answer) -> anyhow::Result<()> {
+        if let Some(reply) = self.presentation.take().and_then(|shown| shown.reply(answer)) {
+            let event = self.experiment.answer(reply)?;
             self.recorder.append(&event)?;
         }
         Ok(())

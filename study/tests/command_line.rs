@@ -5,6 +5,8 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use scumble_psychophysics::Protocol;
+
 fn study(arguments: &[&str]) -> Output {
     // Without a display no window can open, so a refusal that comes too late says so.
     Command::new(env!("CARGO_BIN_EXE_scumble-study"))
@@ -32,17 +34,21 @@ fn write(folder: &Path, name: &str, text: &str) -> String {
 
 #[test]
 fn other_protocols_are_refused_with_what_is_allowed() {
-    for name in ["published", "yes-no", "two alternative"] {
-        assert_refused(&["--protocol", name], &[name, "two-alternative", ".json"]);
+    for name in ["two alternative", "protocol.json"] {
+        assert_refused(&["--protocol", name], &[name, "published, two-alternative, yes-no", ".toml"]);
     }
 }
 
 #[test]
 fn a_protocol_file_that_is_none_is_refused_by_name_and_place() {
     let folder = tempfile::tempdir().unwrap();
-    let damaged = write(folder.path(), "damaged.json", "{\n  \"name\": 3\n}");
-    assert_refused(&["--protocol", &damaged], &["damaged.json", "line 2"]);
-    assert_refused(&["--protocol", "absent.json"], &["absent.json"]);
+    let damaged = write(folder.path(), "damaged.toml", "name = \"mine\"\ntask = \"three_alternative\"\n");
+    assert_refused(&["--protocol", &damaged], &["damaged.toml:2", "three_alternative"]);
+    let mut protocol = Protocol::two_alternative();
+    protocol.schedule.trials_min = 0;
+    let out_of_range = write(folder.path(), "range.toml", &protocol.to_toml().unwrap());
+    assert_refused(&["--protocol", &out_of_range], &["range.toml", "trials_min is 0", "1 or more"]);
+    assert_refused(&["--protocol", "absent.toml"], &["absent.toml"]);
 }
 
 #[test]
@@ -64,8 +70,10 @@ fn an_existing_session_is_never_overwritten() {
 fn a_session_that_is_not_there_cannot_be_resumed() {
     assert_refused(&["--data", "absent", "--participant", "p01", "--resume"], &["absent"]);
     assert_refused(&["--resume"], &["--participant"]);
-    let both = ["--participant", "p01", "--resume", "--seed", "1"];
-    assert_refused(&both, &["--seed", "--resume"]);
+    for option in ["--seed", "--protocol", "--participant-number"] {
+        let both = ["--participant", "p01", "--resume", option, "1"];
+        assert_refused(&both, &[option, "--resume"]);
+    }
 }
 
 #[test]
@@ -81,7 +89,16 @@ fn help_teaches_by_examples() {
     let output = study(&["--help"]);
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).unwrap();
-    for word in ["Which one was the line?", "--participant p07 --resume", "scumble-analysis fit", "exit status"] {
+    let words = [
+        "Which one was the line?",
+        "--participant p07 --resume",
+        "--protocol yes-no",
+        "--participant-number 3",
+        "published",
+        "scumble-analysis fit",
+        "exit status",
+    ];
+    for word in words {
         assert!(text.contains(word), "{word:?} is not in {text}");
     }
 }

@@ -17,19 +17,27 @@ pub(crate) use rest::rest;
 pub(crate) use stopped::stopped;
 pub(crate) use trial::trial;
 
-use scumble_psychophysics::Side;
+use scumble_psychophysics::{Answer, Task};
 
 /// What a participant can ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Action {
     /// On from a screen that asks nothing.
     Proceed,
-    /// This side was the line.
-    Answer(Side),
+    /// This answer to the question of the trial.
+    Answer(Answer),
     /// Hide the pictures.
     Pause,
     /// Back from a pause.
     Continue,
     /// Close the window.
     Close,
+}
+
+/// What is asked of every trial, the heading of its screen (Kreuzer 2017, figure 4.4, for one picture).
+fn question(task: Task) -> &'static str {
+    match task {
+        Task::TwoAlternative => "Which one was the line?",
+        Task::YesNo => "Was the original image a line?",
+    }
 }

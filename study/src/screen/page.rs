@@ -16,7 +16,8 @@ pub(super) fn page<R>(ui: &mut Ui, height: f32, heading: &str, content: impl FnO
     ui.painter().rect_filled(screen, 0.0, theme::GROUND);
     let size = Vec2::new(COLUMN.min(screen.width() - 32.0), height.min(screen.height()));
     let column = egui::Rect::from_center_size(screen.center(), size);
-    let builder = egui::UiBuilder::new().max_rect(column).layout(Layout::top_down(Align::Min));
+    // Its own identity: a widget must not look for a frame like another screen's in its place.
+    let builder = egui::UiBuilder::new().id_salt(heading).max_rect(column).layout(Layout::top_down(Align::Min));
     ui.scope_builder(builder, |ui| {
         ui.heading(heading);
         ui.add_space(4.0);

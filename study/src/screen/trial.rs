@@ -1,23 +1,26 @@
-//! Two pictures and the question.
+//! One or two pictures and the question.
 //!
 //! The pictures stand on physical pixels around the middle of the screen; everything else takes its
-//! place from them. Nothing on the screen depends on which picture is the line.
+//! place from them. Nothing on the screen depends on the right answer or on the trial's role.
 
 use eframe::egui;
 use egui::{Align2, Button, Pos2, Rect, TextStyle, Ui, Vec2};
-use scumble_psychophysics::{Experiment, Progress, Side, Stage};
+use scumble_psychophysics::{Answer, Experiment, Stage};
 
-use super::page;
+use super::{page, question};
 use crate::presentation::Presentation;
 use crate::screen::Action;
 use crate::{keys, pixels, theme};
 
-/// Between the pictures, in physical pixels.
+/// Between two pictures, in physical pixels.
 const GAP_PX: f32 = 32.0;
-/// Room above the pictures for the question, and below for buttons and progress, in points.
-const ABOVE: f32 = 96.0;
-const BELOW: f32 = 128.0;
-const BUTTON: Vec2 = Vec2::new(180.0, 44.0);
+/// Room above the pictures for the question, and below for buttons, keys and progress, in points: with
+/// pictures 480 px high a screen of 720 holds them all.
+const ABOVE: f32 = 76.0;
+const BELOW: f32 = 160.0;
+/// Between a picture and the question above it or the button below it.
+const MARGIN: f32 = 18.0;
+const BUTTON: Vec2 = Vec2::new(240.0, 56.0);
 
 /// A trial, in practice or not.
 pub(crate) fn trial(
@@ -27,9 +30,10 @@ pub(crate) fn trial(
 ) -> anyhow::Result<Option<Action>> {
     let screen = ui.max_rect();
     ui.painter().rect_filled(screen, 0.0, theme::GROUND);
-    let protocol = experiment.protocol();
-    let size_px = [protocol.picture_width_px, protocol.picture_height_px];
-    let places = Places::new(screen, size_px, ui.pixels_per_point());
+    let rules = experiment.protocol().pictures;
+    let size_px = [rules.width_px, rules.height_px];
+    let pictures = presentation.trial().pictures;
+    let places = Places::new(screen, size_px, pictures.all().len(), ui.pixels_per_point());
     if !screen.contains_rect(places.needed) {
         too_small(ui, screen, places.needed);
         return Ok(None);
@@ -37,70 +41,100 @@ pub(crate) fn trial(
 
     // A key that was pressed before the pictures were there is not an answer to them.
     let was_shown = presentation.pictures().is_some();
-    let key = keys::side(ui.ctx()).filter(|_| was_shown).map(Action::Answer);
+    let answers = pictures.answers();
+    let key = keys::answer(ui.ctx(), answers).filter(|_| was_shown).map(Action::Answer);
     presentation.advance(ui.ctx(), size_px)?;
 
-    let top = Pos2::new(screen.center().x, places.left.top() - 30.0);
-    text(ui, top, Align2::CENTER_BOTTOM, TextStyle::Heading, "Which one was the line?");
+    let top = Pos2::new(screen.center().x, places.pictures[0].top() - MARGIN);
+    text(ui, top, Align2::CENTER_BOTTOM, TextStyle::Heading, question(experiment.protocol().task));
     match presentation.pictures() {
-        Some([left, right]) => {
-            pixels::paint(ui.painter(), left, places.left.center());
-            pixels::paint(ui.painter(), right, places.right.center());
+        Some(pictures) => {
+            for (picture, place) in pictures.iter().zip(&places.pictures) {
+                pixels::paint(ui.painter(), picture, place.center());
+            }
         }
-        None => text(ui, screen.center(), Align2::CENTER_CENTER, TextStyle::Heading, "+"),
+        None => {
+            let centre = Pos2::new(screen.center().x, places.pictures[0].center().y);
+            text(ui, centre, Align2::CENTER_CENTER, TextStyle::Heading, "+");
+        }
     }
-    let clicked = [(Side::Left, places.left, "Left"), (Side::Right, places.right, "Right")]
-        .into_iter()
-        .filter(|(_, picture, label)| button(ui, *picture, label, was_shown))
-        .map(|(side, ..)| Action::Answer(side))
-        .next();
-    let hint = Pos2::new(screen.center().x, places.left.bottom() + 18.0 + 0.5 * BUTTON.y);
-    text(ui, hint, Align2::CENTER_CENTER, TextStyle::Small, "arrow keys, or F and J");
-    let is_practice = matches!(experiment.stage(), Stage::Practice(_));
-    progress(ui, screen, experiment.progress(), is_practice);
+    let mut clicked = None;
+    for (answer, place) in answers.into_iter().zip(places.buttons) {
+        if button(ui, place, answer) && was_shown {
+            clicked = Some(Action::Answer(answer));
+        }
+    }
+    progress(ui, screen, experiment);
     Ok(key.or(clicked))
 }
 
-/// Where the pictures go, in points.
+/// Where the pictures and the buttons go, in points.
 struct Places {
-    left: Rect,
-    right: Rect,
-    /// The pictures with the room that the rest takes.
+    /// From left to right.
+    pictures: Vec<Rect>,
+    buttons: [Rect; 2],
+    /// Everything, with the room that the words take.
     needed: Rect,
 }
 
 impl Places {
-    fn new(screen: Rect, size_px: [u32; 2], pixels_per_point: f32) -> Self {
+    fn new(screen: Rect, size_px: [u32; 2], count: usize, pixels_per_point: f32) -> Self {
         let size = Vec2::new(size_px[0] as f32, size_px[1] as f32) / pixels_per_point;
-        let aside = Vec2::new(0.5 * (size.x + GAP_PX / pixels_per_point), 0.0);
         let centre = screen.center() + Vec2::new(0.0, 0.5 * (ABOVE - BELOW));
-        let [left, right] = [centre - aside, centre + aside].map(|centre| Rect::from_center_size(centre, size));
-        let mut needed = left.union(right);
-        needed.min.y -= ABOVE;
-        needed.max.y += BELOW;
-        Self { left, right, needed }
+        let step = size.x + GAP_PX / pixels_per_point;
+        let place = |index: usize| {
+            let aside = (index as f32 - 0.5 * (count as f32 - 1.0)) * step;
+            Rect::from_center_size(centre + Vec2::new(aside, 0.0), size)
+        };
+        let pictures: Vec<Rect> = (0..count).map(place).collect();
+
+        // Below the middles of two pictures, or of the halves of one.
+        let of_pictures = if count == 1 { 0.25 * size.x } else { 0.5 * step };
+        let aside = of_pictures.max(0.5 * (BUTTON.x + MARGIN));
+        let below = centre + Vec2::new(0.0, 0.5 * (size.y + BUTTON.y) + MARGIN);
+        let buttons = [-aside, aside].map(|x| Rect::from_center_size(below + Vec2::new(x, 0.0), BUTTON));
+
+        let mut needed = pictures.iter().fold(buttons[0].union(buttons[1]), |all, picture| all.union(*picture));
+        needed.min.y = centre.y - 0.5 * size.y - ABOVE;
+        needed.max.y = centre.y + 0.5 * size.y + BELOW;
+        Self { pictures, buttons, needed }
     }
 }
 
-fn button(ui: &mut Ui, picture: Rect, label: &str, enabled: bool) -> bool {
-    let centre = Pos2::new(picture.center().x, picture.bottom() + 18.0 + 0.5 * BUTTON.y);
-    let place = Rect::from_center_size(centre, BUTTON);
-    // Always drawn alike, so that nothing flickers beside the pictures.
-    ui.put(place, Button::new(label)).clicked() && enabled
+/// An answer to click, with its keys below.
+fn button(ui: &mut Ui, place: Rect, answer: Answer) -> bool {
+    let (label, keys) = match answer {
+        Answer::Left => ("Left", "left arrow or F"),
+        Answer::Right => ("Right", "right arrow or J"),
+        Answer::Yes => ("Yes, a line", "left arrow, F or Y"),
+        Answer::No => ("No", "right arrow, J or N"),
+    };
+    let below = place.center_bottom() + Vec2::new(0.0, 8.0);
+    text(ui, below, Align2::CENTER_TOP, TextStyle::Small, keys);
+    // Always drawn alike, with an identity of its own from the first frame, so that nothing flickers
+    // beside the pictures.
+    let builder = egui::UiBuilder::new().id_salt(label).max_rect(place);
+    ui.scope_builder(builder, |ui| ui.put(place, Button::new(label))).inner.clicked()
 }
 
-fn progress(ui: &Ui, screen: Rect, progress: Progress, is_practice: bool) {
+/// How far the session is, counted in answers of every role alike.
+fn progress(ui: &Ui, screen: Rect, experiment: &Experiment) {
     let centre = Pos2::new(screen.center().x, screen.bottom() - 26.0);
-    if is_practice {
+    if matches!(experiment.stage(), Stage::Practice(_)) {
         text(ui, centre, Align2::CENTER_CENTER, TextStyle::Small, "Practice");
         return;
     }
+    let (progress, protocol) = (experiment.progress(), experiment.protocol());
     let words = format!("Round {} of {}", progress.round, progress.rounds);
     let above = centre - Vec2::new(0.0, 8.0);
     text(ui, above, Align2::CENTER_BOTTOM, TextStyle::Small, &words);
+
+    // Of the answers to come, these are for staircases. Their greatest number only shrinks, so the bar only grows.
+    let measured_share = (1.0 - protocol.catch_trials.map_or(0.0, |catch| catch.share))
+        * (1.0 - protocol.line_trials.map_or(0.0, |lines| lines.share));
+    let at_most = f64::from(progress.trials_at_most) / measured_share;
+    let done = (f64::from(progress.trials) / at_most).min(1.0) as f32;
     let track = Rect::from_center_size(centre, Vec2::new(240.0, 4.0));
-    // The most that may come only shrinks, so the bar only grows.
-    let done = progress.trials as f32 / progress.trials_at_most.max(1) as f32;
     let filled = Rect::from_min_size(track.min, Vec2::new(track.width() * done, track.height()));
     ui.painter().rect_filled(track, 2.0, theme::TRACK);
     ui.painter().rect_filled(filled, 2.0, theme::FAINT_INK);
@@ -122,4 +156,48 @@ fn too_small(ui: &mut Ui, screen: Rect, needed: Rect) {
             pixels(screen)
         ));
     });
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+    use crate::screen;
+    use scumble_psychophysics::Protocol;
+
+    /// Fills of everything as large as a button that a frame draws.
+    fn buttons(context: &egui::Context, show: impl FnMut(&mut Ui)) -> Vec<egui::Color32> {
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(1280.0, 800.0)));
+        let mut output = context.run_ui(egui::RawInput { screen_rect, ..Default::default() }, show);
+        output.textures_delta.clear(); // Nothing uploads them.
+        let fill = |clipped: &egui::epaint::ClippedShape| match &clipped.shape {
+            egui::Shape::Rect(shape) if shape.rect.size() == BUTTON => Some(shape.fill),
+            _ => None,
+        };
+        output.shapes.iter().filter_map(fill).collect()
+    }
+
+    #[test]
+    fn both_buttons_look_alike_from_the_first_frame_on() {
+        for name in ["two-alternative", "yes-no", "published"] {
+            let context = egui::Context::default();
+            theme::apply(&context);
+            let mut experiment = Experiment::new(Protocol::named(name).unwrap(), 1, 1).unwrap();
+            experiment.proceed().unwrap();
+            let trial = *experiment.stage().trial().unwrap();
+            let answer = trial.pictures.right_answer();
+
+            for _ in 0..2 {
+                buttons(&context, |ui| _ = screen::feedback(ui, true, answer));
+            }
+            let mut presentation = Presentation::new(trial);
+            let mut frame = || buttons(&context, |ui| _ = super::trial(ui, &mut presentation, &experiment).unwrap());
+            let first = frame();
+            assert_eq!(first.len(), 2, "{name}");
+            assert_eq!(first[0], first[1], "{name}");
+            for _ in 0..3 {
+                assert_eq!(frame(), first, "{name}");
+            }
+        }
+    }
 }

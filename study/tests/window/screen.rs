@@ -55,7 +55,7 @@ impl Screen {
     }
 
     /// Starts the study on this screen.
-    pub fn study(&self, arguments: &[&str], scale: &str) -> Running {
+    pub fn study(&self, arguments: &[String], scale: &str) -> Running {
         let child = Command::new(env!("CARGO_BIN_EXE_scumble-study"))
             .args(arguments)
             .env("DISPLAY", &self.display)
@@ -73,33 +73,51 @@ impl Screen {
         assert!(command.status().unwrap().success(), "xdotool {words}");
     }
 
-    /// What is on the screen, as red, green, blue.
-    pub fn pixels(&self) -> Vec<u8> {
+    /// What is on the screen.
+    pub fn pixels(&self) -> Pixels {
         let output = Command::new("import")
             .args(["-silent", "-window", "root", "-depth", "8", "rgb:-"])
             .env("DISPLAY", &self.display)
             .output()
             .unwrap();
         assert_eq!(output.stdout.len() as u32, self.size_px[0] * self.size_px[1] * 3, "{output:?}");
-        output.stdout
+        Pixels { size_px: self.size_px, rgb: output.stdout }
     }
+}
 
-    /// The upper left corner of the first place in `pixels` that shows `picture` texel for pixel and
-    /// level for level.
-    pub fn find(&self, pixels: &[u8], picture: &GrayImage) -> Option<[u32; 2]> {
+/// A screenshot: red, green, blue, row by row.
+#[derive(Clone, PartialEq)]
+pub struct Pixels {
+    size_px: [u32; 2],
+    rgb: Vec<u8>,
+}
+
+impl Pixels {
+    /// The upper left corner of the first place that shows `picture` texel for pixel and level for
+    /// level.
+    pub fn find(&self, picture: &GrayImage) -> Option<[u32; 2]> {
         let [width, height] = self.size_px;
         let (picture_width, picture_height) = picture.dimensions();
         let levels = picture.as_raw();
         let agrees = |x: u32, y: u32, index: usize| {
             let (column, row) = (index as u32 % picture_width, index as u32 / picture_width);
             let at = 3 * ((y + row) * width + x + column) as usize;
-            pixels[at..at + 3].iter().all(|level| *level == levels[index])
+            self.rgb[at..at + 3].iter().all(|level| *level == levels[index])
         };
         // A sparse comparison rules out almost every place; 7,919 is a prime.
         let sparse = |x, y| (0..levels.len()).step_by(7_919).all(|index| agrees(x, y, index));
         (0..=height - picture_height)
             .flat_map(|y| (0..=width - picture_width).map(move |x| [x, y]))
             .find(|&[x, y]| sparse(x, y) && (0..levels.len()).all(|index| agrees(x, y, index)))
+    }
+
+    /// With the rectangle at `corner` blackened.
+    pub fn without(mut self, corner: [u32; 2], size: [u32; 2]) -> Self {
+        for row in corner[1]..corner[1] + size[1] {
+            let start = 3 * (row * self.size_px[0] + corner[0]) as usize;
+            self.rgb[start..start + 3 * size[0] as usize].fill(0);
+        }
+        self
     }
 }
 
@@ -112,5 +130,29 @@ pub fn wait_for<T>(what: &str, mut done: impl FnMut() -> Option<T>) -> T {
         }
         assert!(began.elapsed() < Duration::from_secs(30), "waited 30 s for {what}");
         std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+#[test]
+fn a_picture_is_found_where_it_is_and_not_with_one_level_changed() {
+    let mut pixels = Pixels { size_px: [40, 30], rgb: vec![128; 40 * 30 * 3] };
+    let mut picture = GrayImage::from_fn(20, 10, |x, y| image::Luma([(x + 20 * y) as u8]));
+    for (x, y, level) in picture.enumerate_pixels() {
+        let at = 3 * ((y + 7) * 40 + x + 5) as usize;
+        pixels.rgb[at..at + 3].fill(level.0[0]);
+    }
+    assert_eq!(pixels.find(&picture), Some([5, 7]));
+    picture.get_pixel_mut(19, 9).0[0] += 1;
+    assert_eq!(pixels.find(&picture), None);
+}
+
+#[test]
+fn screenshots_without_a_rectangle_are_equal_when_they_differ_inside_it_alone() {
+    let plain = Pixels { size_px: [40, 30], rgb: vec![128; 40 * 30 * 3] };
+    for (place, is_inside) in [([5, 7], true), ([24, 16], true), ([25, 16], false), ([4, 7], false)] {
+        let mut changed = plain.clone();
+        changed.rgb[3 * (place[1] * 40 + place[0])] = 129;
+        let [a, b] = [&plain, &changed].map(|pixels| pixels.clone().without([5, 7], [20, 10]));
+        assert_eq!(a == b, is_inside, "{place:?}");
     }
 }

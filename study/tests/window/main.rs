@@ -1,0 +1,11 @@
+//! The real window on a virtual screen, with real keys and a real mouse: whole sessions of every
+//! protocol, cut short, what is on the screen at each step, and what is on disk.
+//!
+//! A second state machine with the same seed runs beside the window and knows what it must show.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod one_picture;
+mod screen;
+mod sitting;
+mod two_pictures;

@@ -1,0 +1,166 @@
+//! A participant at the window, and the state machine that knows what the window must show.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitStatus;
+
+use image::GrayImage;
+use scumble_psychophysics::{
+    Answer, EVENTS_FILE, Event, Experiment, Protocol, Reply, Role, Session, Stage, Trial, read_session,
+};
+use scumble_stimuli::{Transfer, picture_sha256};
+
+use crate::screen::{Running, Screen, wait_for};
+
+/// The number of the participant, whose code has none.
+pub const PARTICIPANT_NUMBER: u32 = 3;
+
+/// A session in the window, from its first screen to its last.
+pub struct Sitting<'a> {
+    screen: &'a Screen,
+    protocol: Protocol,
+    session: PathBuf,
+    common: Vec<String>,
+    scale: String,
+    pub study: Running,
+    expected: Experiment,
+    given: Vec<(Trial, Answer)>,
+    /// Lines of the record without an answer.
+    moments: usize,
+}
+
+/// A shipped protocol cut short: one texel, one contrast, one trial a staircase, one to practise.
+pub fn short(name: &str) -> Protocol {
+    let mut protocol = Protocol::named(name).unwrap();
+    protocol.name = format!("short {name}");
+    protocol.conditions.contrasts = vec![0.5];
+    protocol.conditions.texels_px = vec![10.0];
+    protocol.schedule.trials_min = 1;
+    protocol.schedule.trials_max = 1;
+    protocol.practice.ratios = vec![1.0];
+    protocol
+}
+
+/// The roles of a session, in order.
+pub fn roles(protocol: &Protocol, seed: u64) -> Vec<Role> {
+    let mut experiment = Experiment::new(protocol.clone(), seed, PARTICIPANT_NUMBER).unwrap();
+    let mut roles = Vec::new();
+    while let Some(trial) = next_trial(&mut experiment) {
+        roles.push(trial.role);
+        experiment.answer(reply(trial.pictures.right_answer())).unwrap();
+    }
+    roles
+}
+
+impl<'a> Sitting<'a> {
+    /// Opens the window on a protocol file in `folder`.
+    pub fn start(screen: &'a Screen, folder: &Path, protocol: Protocol, seed: u64, scale: &str) -> Self {
+        let file = folder.join("protocol.toml");
+        std::fs::write(&file, protocol.to_toml().unwrap()).unwrap();
+        let data = folder.join(format!("study-{scale}"));
+        let common = ["--data", data.to_str().unwrap(), "--participant", "someone"].map(String::from).to_vec();
+        let [seed_text, number] = [seed.to_string(), PARTICIPANT_NUMBER.to_string()];
+        let fresh = ["--protocol", file.to_str().unwrap(), "--seed", &seed_text, "--participant-number", &number]
+            .map(String::from);
+        let study = screen.study(&[&common[..], &fresh].concat(), scale);
+        let expected = Experiment::new(protocol.clone(), seed, PARTICIPANT_NUMBER).unwrap();
+        let session = data.join("someone");
+        Self { screen, protocol, session, common, scale: scale.into(), study, expected, given: Vec::new(), moments: 0 }
+    }
+
+    /// Goes to the next trial: presses the space bar until all of its pictures are on the screen, bit
+    /// for bit, and gives it with their corners. The space bar does nothing on a trial's screen.
+    pub fn next(&mut self) -> Option<(Trial, Vec<[u32; 2]>)> {
+        let trial = next_trial(&mut self.expected)?;
+        Some((trial, self.see(&trial)))
+    }
+
+    /// The corners of the pictures of `trial`, once they are on the screen.
+    pub fn see(&self, trial: &Trial) -> Vec<[u32; 2]> {
+        let pictures = self.pictures(trial);
+        let what = format!("the pictures of {:?} trial {}, bit for bit", trial.role, trial.number);
+        wait_for(&what, || {
+            let pixels = self.screen.pixels();
+            let corners: Option<Vec<_>> = pictures.iter().map(|picture| pixels.find(picture)).collect();
+            if corners.is_none() {
+                self.screen.input("key space");
+            }
+            corners
+        })
+    }
+
+    /// Answers by `input`, which must mean `answer`, and waits until that is on disk.
+    pub fn answer(&mut self, input: &str, answer: Answer) {
+        let trial = *self.expected.stage().trial().unwrap();
+        self.screen.input(input);
+        self.expected.answer(reply(answer)).unwrap();
+        self.given.push((trial, answer));
+        let lines = self.given.len() + self.moments;
+        wait_for("the answer on disk", || {
+            let text = std::fs::read_to_string(self.session.join(EVENTS_FILE)).unwrap();
+            (text.matches('\n').count() >= lines).then_some(())
+        });
+        let record = self.record();
+        let on_disk =
+            record.events.iter().filter_map(Event::answered).map(|answered| (answered.trial, answered.answer));
+        assert_eq!(on_disk.collect::<Vec<_>>(), self.given);
+    }
+
+    /// Kills the program and starts it anew with --resume.
+    pub fn crash_and_resume(&mut self) {
+        self.study.0.kill().unwrap();
+        self.study.0.wait().unwrap();
+        self.study = self.screen.study(&[&self.common[..], &["--resume".into()]].concat(), &self.scale);
+        self.moments += 1;
+    }
+
+    /// The record as it is on disk.
+    pub fn record(&self) -> Session {
+        read_session(&self.session).unwrap()
+    }
+
+    /// Waits until the program ends.
+    pub fn exit_status(&mut self) -> ExitStatus {
+        wait_for("the program to end", || self.study.0.try_wait().unwrap())
+    }
+
+    /// Closes the last screen, and gives the record once it holds what it must: it is complete, it
+    /// replays, and the pictures that its trials describe have the hashes of those that were drawn.
+    pub fn finish(mut self) -> Session {
+        assert_eq!(next_trial(&mut self.expected), None, "trials are left");
+        wait_for("the end on disk", || self.record().is_complete().then_some(()));
+        self.screen.input("key space");
+        assert!(self.exit_status().success(), "the session is complete");
+        let record = self.record();
+        assert!(record.notices.is_empty(), "{:?}", record.notices);
+        assert_eq!(*record.replay().unwrap().stage(), Stage::Finished);
+        assert_eq!(record.header.participant_number, PARTICIPANT_NUMBER);
+        for answered in record.events.iter().filter_map(Event::answered) {
+            let hashes: Vec<String> = self.pictures(&answered.trial).iter().map(picture_sha256).collect();
+            assert_eq!(answered.pictures_sha256, hashes);
+            let secs = answered.response_time_secs;
+            assert!(secs > 0.05 && secs < 30.0, "response time {secs} s");
+        }
+        record
+    }
+
+    /// The pictures that a trial describes, from left to right.
+    pub fn pictures(&self, trial: &Trial) -> Vec<GrayImage> {
+        let rules = self.protocol.pictures;
+        let draw = |stimulus: &scumble_stimuli::Stimulus| {
+            stimulus.render(rules.width_px, rules.height_px, &Transfer::srgb()).unwrap()
+        };
+        trial.pictures.all().into_iter().map(draw).collect()
+    }
+}
+
+/// Steps over the screens without a question, as the space bar does in the window.
+fn next_trial(experiment: &mut Experiment) -> Option<Trial> {
+    while experiment.stage().trial().is_none() && *experiment.stage() != Stage::Finished {
+        experiment.proceed().unwrap();
+    }
+    experiment.stage().trial().copied()
+}
+
+fn reply(answer: Answer) -> Reply {
+    Reply { answer, response_time_secs: 0.0, pictures_sha256: Vec::new() }
+}
