@@ -4,13 +4,13 @@
 //! At some ratio `c = r / a` nobody can tell the result from the filtered true edge. This crate draws
 //! both sides of that comparison for people to judge (Kreuzer 2017, chapter 4), without sampling:
 //!
-//! 1. [`Kernel`]: the weight of a disc, box or Gaussian in a quadrant and in a half plane, closed
-//!    forms.
-//! 2. [`Silhouette`]: the coverage of a filtered stair, step and line as a few of those, exact to
-//!    1e-12 (disc, box) and 1e-9 (Gaussian) against an independent table.
+//! 1. [`Kernel`]: a disc, box, Gaussian or the 25 taps of a renderer; its weight in a half plane and
+//!    beside a riser in closed form.
+//! 2. [`Silhouette`]: the coverage of a filtered stair, step, double step and line as a few of those,
+//!    exact to 1e-12 (disc, box) and 1e-9 (Gaussian) against an independent table.
 //! 3. [`Stimulus`]: one picture of the experiment as a handful of numbers, and
 //!    [`Stimulus::render`], which turns it into 8 bits at physical pixels of a display whose light
-//!    the [`Transfer`] knows.
+//!    the [`Transfer`] knows. [`picture_sha256`] names the bytes in a log.
 //! 4. [`IsoContour`] and [`reference_ratio`]: how far an artifact is from its line, as the bend of its
 //!    contours and as the ratio beyond which it stays within a few levels.
 //!
