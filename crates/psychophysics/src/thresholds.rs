@@ -5,7 +5,8 @@
 //! `ratio x pattern factor x half_contrast_factor^(log2(1 / contrast))`:
 //!
 //! * step: 1; double step: 1, a single step in a diagonal is as hard to hide as one in a level edge
-//!   (an assumption: the paper has none); stair: `stair_factor`;
+//!   (an assumption: the paper has none; by its contour it is hidden at a ratio a tenth smaller);
+//!   stair: `stair_factor`;
 //! * every texel size has the same ratio, which is the relation `r = c a` itself;
 //! * every kernel has the same ratio, an assumption: the steepest part of a filtered step rises by
 //!   `0.5 / c` under disc and box and by `0.80 / c` and `1.20 / c` under the Gaussians of

@@ -2,14 +2,17 @@
 
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
+mod support;
+
 use std::sync::LazyLock;
 
 use scumble_psychophysics::{
     Cohort, Condition, EXPONENT_OF_SLOPE_3_5, Experiment, Fatigue, ImageObserver, Observer, ObserverModel, Pictures,
     Protocol, Psychometric, Role, SignalDetectionObserver, Stage, THRESHOLD_PROBABILITY, Thresholds, Trial,
-    WeibullObserver,
+    WeibullObserver, rehearse,
 };
 use scumble_stimuli::{Kernel, Pattern, Shape, Stimulus};
+use support::{header, small};
 
 /// The first main trial of the default protocol.
 static FIRST: LazyLock<Trial> = LazyLock::new(|| {
@@ -176,6 +179,30 @@ fn fatigue_lowers_the_threshold_adds_lapses_and_moves_the_criterion_in_its_units
         // Phi(1.2816 + 1) = 0.988742.
         let line = probability(&tired, &late(single(Shape::Line, 3.0)));
         assert!((line - 0.988_742).abs() < 1e-6, "{line}");
+    }
+}
+
+#[test]
+fn an_interrupted_session_gets_the_answers_of_one_that_was_not_from_every_kind_however_tired() {
+    let fatigue = Fatigue {
+        threshold_fall_log10_per_100_trials: 1.0,
+        lapse_growth_per_100_trials: 1.0,
+        criterion_drift_sds_per_100_trials: 5.0,
+    };
+    let people = [
+        ObserverModel::Weibull(WeibullObserver { fatigue, ..WeibullObserver::default() }),
+        ObserverModel::SignalDetection(SignalDetectionObserver { fatigue, ..SignalDetectionObserver::default() }),
+        ObserverModel::Image(ImageObserver { fatigue, ..ImageObserver::default() }),
+    ];
+    for (model, name) in people.into_iter().flat_map(|model| [(model, "two-alternative"), (model, "yes-no")]) {
+        let header = header(small(name));
+        let person = Observer::new(model, 5).unwrap();
+        let mut whole = Experiment::resume(&header, &[]).unwrap();
+        let events = rehearse(&mut whole, &person).unwrap();
+        let cut = events.len() / 2;
+        let mut resumed = Experiment::resume(&header, &events[..cut]).unwrap();
+        assert_eq!(rehearse(&mut resumed, &person).unwrap(), events[cut..], "{model:?}, {name}");
+        assert_eq!(resumed, whole);
     }
 }
 

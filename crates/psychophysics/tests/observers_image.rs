@@ -202,6 +202,25 @@ fn the_relation_follows_from_the_pictures_alone() {
 }
 
 #[test]
+fn a_double_step_is_a_little_easier_to_hide_than_a_step_and_half_the_contrast_changes_nothing() {
+    let person = lapse_free();
+    let double_step = measured_threshold(&person, Kernel::Disc, Pattern::DoubleStep, 10.0);
+    assert!((double_step / 2.95).ln().abs() < 0.04, "{double_step}");
+
+    let share = |contrast| {
+        let right = |number| {
+            let mut trial = pair(Kernel::Disc, Pattern::Step, 10.0, 3.2, number);
+            if let Pictures::Pair { left, right } = &mut trial.pictures {
+                (left.contrast, right.contrast) = (contrast, contrast);
+            }
+            person.probability_correct(&trial, &rules()).unwrap()
+        };
+        (1..=6).map(right).sum::<f64>() / 6.0
+    };
+    assert!((share(1.0) - share(0.5)).abs() < 0.02, "{} {}", share(1.0), share(0.5));
+}
+
+#[test]
 fn a_gaussian_of_half_the_radius_hides_less_than_a_disc_by_its_steepness() {
     let person = lapse_free();
     let threshold = |kernel| measured_threshold(&person, kernel, Pattern::Step, 10.0);
