@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::{
     Error,
@@ -14,12 +14,11 @@ use crate::{
 /// Probability of a correct answer that defines the reported threshold `x82` (Kreuzer 2017, 4.2).
 const CORRECT_AT_THRESHOLD: f64 = 0.82;
 
-#[derive(Deserialize)]
-struct Row {
-    level: f64,
-    n_correct: f64,
-    n_total: f64,
-}
+/// Largest count: beyond it a typing error is likelier than an experiment.
+const COUNT_LARGEST: f64 = 1e9;
+
+/// Levels between which the search for a location is fine enough, with any unit.
+const LEVELS: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
 
 /// Result of the command `threshold`; the fields are keys of its JSON.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,22 +48,22 @@ pub struct CountTableFit {
 /// Reads a table of `level,n_correct,n_total`.
 ///
 /// # Errors
-/// Names file and line of the first cell that is not a positive level or a pair of whole numbers
-/// `0 <= n_correct <= n_total`.
+/// Names file and line of the first cell that is not a level from 1e-12 to 1e12 or a pair of whole
+/// numbers `0 <= n_correct <= n_total <= 1e9`.
 pub fn read_count_table(path: &Path) -> Result<Vec<Count>, Error> {
     let mut counts = Vec::new();
-    crate::table::read_rows(path, &["level", "n_correct", "n_total"], |row: Row| {
-        let whole = |value: f64| value.is_finite() && value >= 0.0 && value.fract() == 0.0;
-        if !(row.level.is_finite() && row.level > 0.0) {
-            return Err(format!("level is {}; allowed is a finite number above 0", row.level));
+    crate::table::read_rows(path, ["level", "n_correct", "n_total"], |_, [level, correct, total]| {
+        let is_count = |value: f64| (0.0..=COUNT_LARGEST).contains(&value) && value.fract() == 0.0;
+        if !LEVELS.contains(&level) {
+            return Err(format!("level is {level}; allowed is a number above 0, from 1e-12 to 1e12"));
         }
-        if !whole(row.n_correct) || !whole(row.n_total) || row.n_correct > row.n_total {
+        if !is_count(correct) || !is_count(total) || correct > total {
             return Err(format!(
-                "n_correct is {} of n_total {}; allowed are whole numbers, n_correct at most n_total",
-                row.n_correct, row.n_total
+                "n_correct is {correct} of n_total {total}; allowed are whole numbers from 0 to 1e9, n_correct at most \
+                 n_total"
             ));
         }
-        counts.push(Count { x: row.level.log10(), correct: row.n_correct, total: row.n_total });
+        counts.push(Count { x: level.log10(), correct, total });
         Ok(())
     })?;
     Ok(counts)

@@ -84,6 +84,9 @@ pub enum Error {
     /// The data are readable and do not carry the fit.
     #[error("the data cannot carry a fit: {0}")]
     CannotFit(String),
+    /// The protocol cannot measure what is expected.
+    #[error("the protocol cannot measure the answer: {0}")]
+    CannotPlan(String),
     /// A figure could not be drawn.
     #[error("the figure {figure} could not be drawn: {reason}")]
     Figure {

@@ -7,11 +7,12 @@ use std::{
 };
 
 use anyhow::Context;
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use scumble_analysis::{
-    Parameter, Simulation, Study, fit_count_table, fit_study, hashed_pictures, read_count_table, read_quest_config,
-    read_responses, replay_session, session_directories, write_summaries,
+    Parameter, Plan, Simulation, Study, fit_count_table, fit_study, hashed_pictures, read_count_table,
+    read_quest_config, read_responses, replay_session, session_directories, with_false_alarms, with_slope,
+    write_summaries,
 };
 use scumble_psychophysics::{ObserverModel, Protocol, read_session};
 
@@ -51,6 +52,8 @@ Running it again replaces these files; a file of another kind under one of the n
     #[command(after_help = "Examples:
   scumble-analysis simulate --out sessions --observers 12 --seed 1
   scumble-analysis simulate --out sessions --observers 40 --seed 2 --ratio 2.5 --between-sd 0.15
+  scumble-analysis simulate --out sessions --observers 12 --seed 3 --protocol yes-no --observer signal-detection
+  scumble-analysis simulate --out sessions --observers 12 --seed 4 --protocol my-study.toml --slope 2.5
 
 Equal arguments give equal files. A session that exists is never overwritten.")]
     Simulate {
@@ -63,18 +66,43 @@ Equal arguments give equal files. A session that exists is never overwritten.")]
         /// Everything random follows from it.
         #[arg(long)]
         seed: u64,
-        /// What the observers are asked.
+        /// What the observers are asked: a protocol's name, or a file that ends in .toml.
         #[arg(long, default_value = "two-alternative")]
         protocol: String,
-        /// The median observer's threshold for the step at 100 % contrast, radius in texels.
-        #[arg(long, default_value_t = 3.47)]
-        ratio: f64,
-        /// Standard deviation between observers, log10 of the ratio.
-        #[arg(long, default_value_t = 0.1)]
-        between_sd: f64,
-        /// Share of trials answered blindly.
-        #[arg(long, default_value_t = 0.01)]
-        lapse: f64,
+        #[command(flatten)]
+        people: People,
+    },
+    /// Foretells what a study as configured will give, from simulated sessions; refuses an impossible one.
+    #[command(after_help = "Examples:
+  scumble-analysis plan --protocol two-alternative
+  scumble-analysis plan --protocol my-study.toml --between-sd 0.15 --observer signal-detection
+  scumble-analysis plan --protocol yes-no --sessions 4000 --json plan.json
+
+Prints the bias and the standard deviation of a threshold, the share of staircases that converge and why
+the others do not, trials and minutes a person, and the 95 % interval of c for 10, 20 and 40 people.
+Exit status 1 with the reason for a protocol that cannot measure the answer: thresholds of the median
+person and two standard deviations to either side must lie on the table of every staircase, among the
+radii that the pictures can show, and within reach of the prior: not further from it than
+sqrt(trials_max x k) of its standard deviations, k the nats by which an answer contradicts the prior;
+half of the trials then go into leaving it.")]
+    Plan {
+        /// A protocol's name, or a file that ends in .toml.
+        #[arg(long)]
+        protocol: String,
+        #[command(flatten)]
+        people: People,
+        /// Number of simulated people, 20 to 100000.
+        #[arg(long, default_value_t = 2000)]
+        sessions: u32,
+        /// Everything random follows from it.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// Assumed duration of a trial.
+        #[arg(long, default_value_t = 5.0)]
+        seconds_per_trial: f64,
+        /// Writes the forecast as JSON too.
+        #[arg(long, value_name = "FILE")]
+        json: Option<PathBuf>,
     },
     /// Recomputes every staircase and picture of recorded sessions and compares them with the record.
     #[command(after_help = "Examples:
@@ -125,6 +153,46 @@ x = log10(level). x82 is the x of 82 % correct, nll the negative log likelihood.
     },
 }
 
+/// The simulated people.
+#[derive(Args)]
+struct People {
+    /// Kind of observer: weibull sees the artifact or not, signal-detection has noisy traces and a
+    /// criterion, image sees the pictures alone (slow).
+    #[arg(long, default_value = "weibull")]
+    observer: String,
+    /// The median observer's threshold for the step at 100 % contrast, radius in texels.
+    #[arg(long, default_value_t = 3.47)]
+    ratio: f64,
+    /// Standard deviation between observers, log10 of the ratio.
+    #[arg(long, default_value_t = 0.1)]
+    between_sd: f64,
+    /// Share of trials answered blindly.
+    #[arg(long, default_value_t = 0.01)]
+    lapse: f64,
+    /// Slope of the psychometric function per log10 unit; not for the observer image.
+    #[arg(long)]
+    slope: Option<f64>,
+    /// Probability that a line alone is called an artifact; not for the observer image.
+    #[arg(long)]
+    false_alarms: Option<f64>,
+}
+
+impl People {
+    /// `observers` of them in a study.
+    fn study(&self, protocol: &str, observers: u32, seed: u64) -> anyhow::Result<Simulation> {
+        let mut median =
+            ObserverModel::named(&self.observer)?.with_ratio(self.ratio)?.with_lapse_probability(self.lapse);
+        if let Some(slope) = self.slope {
+            median = with_slope(median, slope)?;
+        }
+        if let Some(probability) = self.false_alarms {
+            median = with_false_alarms(median, probability)?;
+        }
+        let protocol = Protocol::open(protocol)?;
+        Ok(Simulation { protocol, observers, seed, median, between_sd_log10: self.between_sd })
+    }
+}
+
 fn lapse(text: &str) -> Result<Parameter, String> {
     if text == "free" {
         return Ok(Parameter::Free);
@@ -146,17 +214,17 @@ fn main() -> ExitCode {
 fn run(command: Command) -> anyhow::Result<()> {
     match command {
         Command::Fit { sessions, out } => fit(&sessions, &out),
-        Command::Simulate { out, observers, seed, protocol, ratio, between_sd, lapse } => {
-            let median = ObserverModel::default().with_ratio(ratio)?.with_lapse_probability(lapse);
-            let protocol = Protocol::named(&protocol)?;
-            let between_sd_log10 = between_sd;
-            simulate(&Simulation { protocol, observers, seed, median, between_sd_log10 }, &out)
+        Command::Simulate { out, observers, seed, protocol, people } => {
+            simulate(&people.study(&protocol, observers, seed)?, &out)
+        }
+        Command::Plan { protocol, people, sessions, seed, seconds_per_trial, json } => {
+            let simulation = people.study(&protocol, sessions, seed)?;
+            plan(&simulation, seconds_per_trial, json.as_deref()).context(protocol)
         }
         Command::Replay { sessions } => replay(&sessions),
         Command::Quest { config, responses } => {
-            let names = [&config, &responses].map(|path| stem(path));
-            let (config, table) = (read_quest_config(&config)?, read_responses(&responses)?);
-            Ok(write_summaries(config, &table, [&names[0], &names[1]], stdout().lock())?)
+            let (parameters, answers) = (read_quest_config(&config)?, read_responses(&responses)?);
+            Ok(write_summaries(&parameters, &answers, [&config, &responses], stdout().lock())?)
         }
         Command::Threshold { data, guess, lapse } => {
             let counts = read_count_table(&data)?;
@@ -203,6 +271,19 @@ fn simulate(simulation: &Simulation, out: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Simulates behind a progress bar and prints the forecast.
+fn plan(simulation: &Simulation, secs_per_trial: f64, json: Option<&Path>) -> anyhow::Result<()> {
+    let bar = progress_bar(simulation.observers.into(), "sessions")?;
+    let plan = Plan::of(simulation, secs_per_trial, || bar.inc(1))?;
+    bar.finish_and_clear();
+    if let Some(path) = json {
+        let text = serde_json::to_string_pretty(&plan)? + "\n";
+        std::fs::write(path, text).with_context(|| path.display().to_string())?;
+    }
+    print!("{}", plan.text());
+    Ok(())
+}
+
 /// Replays every session behind a progress bar of its pictures.
 fn replay(paths: &[PathBuf]) -> anyhow::Result<()> {
     for path in paths {
@@ -237,9 +318,4 @@ fn progress_bar(length: u64, what: &'static str) -> anyhow::Result<ProgressBar> 
     let bar = ProgressBar::new(length).with_style(style);
     bar.set_message(what);
     Ok(bar)
-}
-
-/// A file's name without folder and ending.
-fn stem(path: &Path) -> String {
-    path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
 }

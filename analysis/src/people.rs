@@ -12,7 +12,9 @@ use std::{
 
 use rayon::prelude::*;
 use scumble_core::SessionHash;
-use scumble_psychophysics::{Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Session, read_session};
+use scumble_psychophysics::{
+    Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Reason, Session, read_session,
+};
 use sha2::{Digest, Sha256};
 
 use crate::{Error, checks::Checks};
@@ -22,8 +24,8 @@ use crate::{Error, checks::Checks};
 pub struct Run {
     /// Intensity `log10(texel / radius)` as shown, and whether the answer was right.
     pub responses: Vec<(f64, bool)>,
-    /// Whether the experiment's convergence rule held at the last trial.
-    pub converged: bool,
+    /// Why the experiment's convergence rule did not hold at the last trial; empty where it did.
+    pub unconverged: Vec<Reason>,
 }
 
 /// One person's answers in one condition: every staircase of every session.
@@ -43,7 +45,7 @@ impl Track {
 
     /// Number of runs that met the experiment's convergence rule.
     pub fn converged(&self) -> usize {
-        self.runs.iter().filter(|run| run.converged).count()
+        self.runs.iter().filter(|run| run.unconverged.is_empty()).count()
     }
 }
 
@@ -63,7 +65,7 @@ impl Person {
     pub fn of(code: &str, experiment: &Experiment, events: &[Event]) -> Self {
         let runs_of = |condition: &Condition| {
             let here = experiment.tracks().iter().filter(|track| track.condition() == condition);
-            here.map(|track| Run { responses: track.responses().to_vec(), converged: track.verdict().is_converged() })
+            here.map(|track| Run { responses: track.responses().to_vec(), unconverged: track.verdict().reasons() })
                 .collect()
         };
         let conditions = experiment.protocol().all_conditions().into_iter();

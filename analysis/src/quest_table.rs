@@ -3,15 +3,23 @@
 
 use std::{io::Write, path::Path};
 
-use scumble_psychophysics::{QuestConfig, QuestSummary};
-use serde::{Deserialize, Serialize};
+use scumble_psychophysics::{Quest, QuestConfig, QuestSummary};
+use serde::Serialize;
 
-use crate::Error;
+use crate::{
+    Error,
+    table::{read_rows, read_text},
+};
 
-#[derive(Deserialize)]
-struct ResponseRow {
-    intensity: f64,
-    response: f64,
+/// One answer of a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TableAnswer {
+    /// Its line in the file.
+    pub line: u64,
+    /// Intensity shown.
+    pub intensity: f64,
+    /// The response.
+    pub response: bool,
 }
 
 /// One row of the output. Lists the fields of [`QuestSummary`] because the CSV writer flattens none.
@@ -39,50 +47,68 @@ struct SummaryRow<'a> {
 /// # Errors
 /// Names file, line and key of what is missing, unknown or out of range.
 pub fn read_quest_config(path: &Path) -> Result<QuestConfig, Error> {
-    let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
+    let text = read_text(path)?;
     let config: QuestConfig = serde_json::from_str(&text).map_err(|error| {
-        let (line, reason) = (error.line() as u64, error.to_string());
-        Error::Table { path: path.to_path_buf(), line, reason }
+        let reason = format!(
+            "{error}; allowed are numbers under tGuess, tGuessSd, pThreshold, beta, delta and gamma, and grain and \
+             range where they differ from 0.01 and 5"
+        );
+        Error::Table { path: path.to_path_buf(), line: error.line() as u64, reason }
     })?;
-    config.check().map_err(|error| {
+    // A prior is made too: it finds what the ranges of single keys do not.
+    config.check().and_then(|()| Quest::new(config).map(|_| ())).map_err(|error| {
         let reason = error.to_string();
-        Error::File { path: path.to_path_buf(), reason }
+        Error::Table { path: path.to_path_buf(), line: line_of_key(&text, &reason), reason }
     })?;
     Ok(config)
+}
+
+/// The line of the key with which a complaint begins; 1 where it begins with none.
+fn line_of_key(text: &str, complaint: &str) -> u64 {
+    let key = match complaint.split_whitespace().next() {
+        Some("threshold") => "pThreshold",
+        Some(word) => word,
+        None => "",
+    };
+    let place = text.find(&format!("\"{key}\"")).unwrap_or(0);
+    1 + text[..place].matches('\n').count() as u64
 }
 
 /// Reads a table of `intensity,response`; a response is 0 or 1.
 ///
 /// # Errors
 /// Names file and line of the first cell that is not allowed.
-pub fn read_responses(path: &Path) -> Result<Vec<(f64, bool)>, Error> {
-    let mut responses = Vec::new();
-    crate::table::read_rows(path, &["intensity", "response"], |row: ResponseRow| {
-        if !row.intensity.is_finite() {
-            return Err(format!("intensity is {}; allowed is a finite number", row.intensity));
+pub fn read_responses(path: &Path) -> Result<Vec<TableAnswer>, Error> {
+    let mut answers = Vec::new();
+    read_rows(path, ["intensity", "response"], |line, [intensity, response]| {
+        if !intensity.is_finite() {
+            return Err(format!("intensity is {intensity}; allowed is a finite number"));
         }
-        if row.response != 0.0 && row.response != 1.0 {
-            return Err(format!("response is {}; allowed is 0 or 1", row.response));
+        if response != 0.0 && response != 1.0 {
+            return Err(format!("response is {response}; allowed is 0 or 1"));
         }
-        responses.push((row.intensity, row.response == 1.0));
+        answers.push(TableAnswer { line, intensity, response: response == 1.0 });
         Ok(())
     })?;
-    Ok(responses)
+    Ok(answers)
 }
 
-/// Writes the summaries as CSV. `config_name` and `sequence_name` fill the columns `config` and
-/// `sequence`.
+/// Writes the summaries as CSV. The columns `config` and `sequence` are the names of the files.
 ///
 /// # Errors
-/// A response that QUEST refuses, or the writer's error.
+/// A response that QUEST refuses, with the line of `responses` that holds it; the writer's error.
 pub fn write_summaries(
-    config: QuestConfig,
-    responses: &[(f64, bool)],
-    [config_name, sequence_name]: [&str; 2],
+    config: &QuestConfig,
+    answers: &[TableAnswer],
+    [config_file, responses_file]: [&Path; 2],
     out: impl Write,
 ) -> Result<(), Error> {
+    let [config_name, sequence_name] = [&stem(config_file), &stem(responses_file)];
+    let responses: Vec<(f64, bool)> = answers.iter().map(|answer| (answer.intensity, answer.response)).collect();
+    let rows = QuestSummary::of_sequence(*config, &responses)
+        .map_err(|error| refused_answer(config, answers, responses_file, error))?;
     let mut writer = csv::Writer::from_writer(out);
-    for row in QuestSummary::of_sequence(config, responses)? {
+    for row in rows {
         let row = SummaryRow {
             config: config_name,
             sequence: sequence_name,
@@ -102,4 +128,23 @@ pub fn write_summaries(
         writer.serialize(row).map_err(|error| Error::io(Path::new("output"))(error.into()))?;
     }
     writer.flush().map_err(Error::io(Path::new("output")))
+}
+
+/// The refusal with the line of the first answer that QUEST refuses.
+fn refused_answer(
+    config: &QuestConfig,
+    answers: &[TableAnswer],
+    file: &Path,
+    error: scumble_psychophysics::Error,
+) -> Error {
+    let Ok(mut quest) = Quest::new(*config) else { return error.into() };
+    match answers.iter().find(|answer| quest.update(answer.intensity, answer.response).is_err()) {
+        Some(answer) => Error::Table { path: file.to_path_buf(), line: answer.line, reason: error.to_string() },
+        None => error.into(),
+    }
+}
+
+/// A file's name without folder and ending.
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
 }

@@ -10,16 +10,22 @@ use std::path::{Path, PathBuf};
 use jiff::Timestamp;
 use rayon::prelude::*;
 use scumble_psychophysics::{
-    Cohort, Event, Experiment, Moment, ObserverModel, Protocol, SessionHeader, SessionWriter, Software, rehearse,
+    Cohort, Condition, EXPONENT_OF_SLOPE_3_5, Event, Experiment, Moment, ObserverModel, Protocol, SessionHeader,
+    SessionWriter, Software, rehearse,
 };
+use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::{
     Error,
+    assumptions::Assumptions,
     people::{Person, Study},
 };
 
 /// Most people of one simulated study: the session folders have four digits.
 const OBSERVERS_MOST: u32 = 9999;
+
+/// Detection at a simulated person's threshold: 82 % of two alternatives.
+const SIMULATED_DETECTION: f64 = 2.0 * 0.82 - 1.0;
 
 /// A study of simulated people.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,6 +116,37 @@ impl Simulation {
         Ok(directories)
     }
 
+    /// log10 of the median person's ratio at the threshold that the protocol measures.
+    ///
+    /// A simulated threshold is that of 82 % of two alternatives, detected on 64 % of the trials. For a
+    /// protocol with another detection `d` it moves by `log10(w(0.64) / w(d)) / slope`,
+    /// `w(d) = -ln(1 - d / (1 - blind))`, at the protocol's slope and blind share.
+    ///
+    /// # Errors
+    /// An observer whose thresholds are not known in advance.
+    pub fn true_log10(&self, condition: &Condition) -> Result<f64, Error> {
+        let known = Assumptions::of_protocol(&self.protocol);
+        let strength = |detection: f64| -(-detection / (1.0 - known.blind_share)).ln_1p();
+        let shift = (strength(SIMULATED_DETECTION) / strength(known.detection_at_threshold)).log10() / known.slope;
+        Ok(self.known_ratio(&self.median, condition)?.log10() + shift)
+    }
+
+    /// How far person `index`'s thresholds lie from the median person's, log10 units.
+    ///
+    /// # Errors
+    /// Parameters out of range.
+    pub fn person_deviation_log10(&self, index: u32) -> Result<f64, Error> {
+        let Some(condition) = self.protocol.all_conditions().into_iter().next() else { return Ok(0.0) };
+        let own = self.known_ratio(self.cohort().person(index)?.model(), &condition)?;
+        Ok((own / self.known_ratio(&self.median, &condition)?).log10())
+    }
+
+    fn known_ratio(&self, model: &ObserverModel, condition: &Condition) -> Result<f64, Error> {
+        let allowed = "weibull or signal-detection, whose thresholds are known in advance";
+        let unknown = || Error::Argument { name: "--observer", value: model.name().to_owned(), allowed };
+        model.threshold_ratio(condition).ok_or_else(unknown)
+    }
+
     fn cohort(&self) -> Cohort {
         Cohort { median: self.median, between_sd_log10: self.between_sd_log10, seed: self.seed }
     }
@@ -125,6 +162,44 @@ impl Simulation {
         header.simulated_observer = Some(*self.cohort().person(index)?.model());
         Ok(header)
     }
+}
+
+/// The same person with this slope of the psychometric function, per log10 unit. A signal-detection
+/// observer's exponent is proportional to it.
+///
+/// # Errors
+/// An observer whose slope follows from the pictures.
+pub fn with_slope(mut person: ObserverModel, slope_per_log10: f64) -> Result<ObserverModel, Error> {
+    match &mut person {
+        ObserverModel::Weibull(person) => person.slope_per_log10 = slope_per_log10,
+        ObserverModel::SignalDetection(person) => person.exponent = EXPONENT_OF_SLOPE_3_5 * slope_per_log10 / 3.5,
+        ObserverModel::Image(_) => return Err(assumed_by_others("--slope", slope_per_log10)),
+    }
+    Ok(person)
+}
+
+/// The same person, who calls a line alone an artifact with this probability, above 0 to below 1.
+///
+/// # Errors
+/// A number that is no such probability; an observer whose criterion is one on the pictures.
+pub fn with_false_alarms(mut person: ObserverModel, probability: f64) -> Result<ObserverModel, Error> {
+    if !(probability > 0.0 && probability < 1.0) {
+        let (value, allowed) = (probability.to_string(), "above 0 to below 1");
+        return Err(Error::Argument { name: "--false-alarms", value, allowed });
+    }
+    match &mut person {
+        ObserverModel::Weibull(person) => person.false_alarm_probability = probability,
+        ObserverModel::SignalDetection(person) => {
+            person.criterion_sds = -Normal::standard().inverse_cdf(probability);
+        }
+        ObserverModel::Image(_) => return Err(assumed_by_others("--false-alarms", probability)),
+    }
+    Ok(person)
+}
+
+fn assumed_by_others(name: &'static str, value: f64) -> Error {
+    let allowed = "no such option with the observer image, who follows from the pictures";
+    Error::Argument { name, value: value.to_string(), allowed }
 }
 
 /// Participant code and folder of person `index`, whose number in the study is `index + 1`.

@@ -49,6 +49,8 @@ pub struct ConditionThreshold {
     pub staircases: usize,
     /// Number of them that met the experiment's own convergence rule at their last trial.
     pub converged: usize,
+    /// Why the others did not, in sentences.
+    pub unconverged: Vec<String>,
     /// The threshold, or why the answers do not carry one.
     pub threshold: Result<Threshold, Unidentified>,
 }
@@ -98,6 +100,7 @@ fn threshold_of(person: &str, track: &Track, known: &Assumptions) -> ConditionTh
         correct: track.responses().filter(|(_, correct)| *correct).count(),
         staircases: track.runs.len(),
         converged: track.converged(),
+        unconverged: track.runs.iter().flat_map(|run| &run.unconverged).map(ToString::to_string).collect(),
         threshold: joint_threshold([track], known),
     }
 }
