@@ -7,7 +7,9 @@
 //!
 //! | Part | Is |
 //! |---|---|
-//! | [`Quest`] | the Bayesian staircase that chooses each radius, equal to Psychtoolbox's to 1e-9 |
+//! | [`Staircase`] | chooses each radius: [`Quest`], equal to Psychtoolbox's to 1e-9, or [`QuestPlus`], after Watson 2017 |
+//! | [`Convergence`] | when a staircase is done, and why not |
+//! | [`BetaPosterior`] | whether the responses fit the slope that QUEST assumed |
 //! | [`Protocol`] | every parameter of a session, with units; three come with the crate |
 //! | [`Experiment`] | the state machine: what to show, what an answer leads to |
 //! | [`SessionWriter`], [`read_session`] | the record: one line an event, on disk before the next picture |

@@ -120,23 +120,23 @@ impl Posterior {
     }
 }
 
-/// `p` for a response of 1 and `1 - p` for one of 0, without a branch: `start + sign p`.
-fn start_and_sign(response: bool) -> (f64, f64) {
-    if response { (0.0, 1.0) } else { (1.0, -1.0) }
-}
-
 /// Sum of the weights times the likelihood of the response.
 fn probability_of(response: bool, weights: &[f64], success: &[f64]) -> f64 {
-    let (start, sign) = start_and_sign(response);
     let success = &success[..weights.len()];
-    sum_by_index(weights, |i, weight| weight * (start + sign * success[i]))
+    if response {
+        sum_by_index(weights, |i, weight| weight * success[i])
+    } else {
+        sum_by_index(weights, |i, weight| weight * (1.0 - success[i]))
+    }
 }
 
 /// Multiplies the weights by `scale` and the likelihood of the response.
 fn multiply(weights: &mut [f64], response: bool, scale: f64, success: &[f64]) {
-    let (start, sign) = start_and_sign(response);
-    for (weight, success) in weights.iter_mut().zip(success) {
-        *weight *= (start + sign * success) * scale;
+    let pairs = weights.iter_mut().zip(success);
+    if response {
+        pairs.for_each(|(weight, success)| *weight *= success * scale);
+    } else {
+        pairs.for_each(|(weight, success)| *weight *= (1.0 - success) * scale);
     }
 }
 
