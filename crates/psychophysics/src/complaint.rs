@@ -18,10 +18,11 @@ impl Complaint {
     /// The complaint `message` about the value of `key` (dotted; `.` for the whole file). `otherwise` is
     /// allowed where the message does not say what is.
     pub(crate) fn new(key: &str, message: &str, otherwise: &str) -> Self {
-        let key = if key == "." { "" } else { key };
+        // A question mark stands for a key that could not be read.
+        let key = key.trim_end_matches(['.', '?']);
         if let Some(name) = message.strip_prefix("missing field ") {
             let name = joined(key, bare(name));
-            return Self { found: format!("no {name}"), allowed: format!("a file with {name}") };
+            return Self { found: format!("no key {name}"), allowed: format!("the key {name} with a value") };
         }
         if let Some(name) = message.strip_prefix("duplicate field ") {
             return Self { found: format!("{} twice", joined(key, bare(name))), allowed: "each key once".into() };
@@ -32,7 +33,7 @@ impl Complaint {
         let parts = message.rsplit_once(", expected ").filter(|_| is_of_serde || key.is_empty());
         let (found, expected) = match parts {
             Some((found, expected)) => (found, in_plain_words(expected)),
-            None => (message, otherwise.to_owned()),
+            None => (in_plain_syntax(message), otherwise.to_owned()),
         };
         if let Some(name) = found.strip_prefix("unknown field ") {
             let allowed = with_unit(bare(name), &expected).unwrap_or(expected);
@@ -82,6 +83,16 @@ fn in_plain_words(expected: &str) -> String {
     }
 }
 
+/// What a reader of JSON found, without its abbreviations.
+fn in_plain_syntax(message: &str) -> &str {
+    match message {
+        "expected value" => "no value of JSON",
+        "EOF while parsing a value" => "nothing where a value must stand",
+        _ if message.starts_with("EOF while parsing") => "an end before everything is closed",
+        _ => message,
+    }
+}
+
 /// A name without serde's quotes.
 fn bare(name: &str) -> &str {
     name.trim_matches('`')
@@ -120,13 +131,14 @@ mod tests {
                 "a.b is integer `-1`",
                 "a whole number from 0 to 4294967295",
             ),
-            ("a", "missing field `b`", "no a.b", "a file with a.b"),
-            (".", "missing field `b`", "no b", "a file with b"),
+            ("a", "missing field `b`", "no key a.b", "the key a.b with a value"),
+            (".", "missing field `b`", "no key b", "the key b with a value"),
             ("a", "duplicate field `b`", "a.b twice", "each key once"),
             ("a", "unknown variant `x`, expected `y` or `z`", "a is `x`", "y or z"),
             ("a", "unknown field `x`, expected one of `y`, `z`", "the unknown key a.x", "one of y, z"),
             ("a.x", "unknown field `x`, expected `y`", "the unknown key a.x", "y"),
-            (".", "EOF while parsing", "EOF while parsing", "something else"),
+            (".", "EOF while parsing a list", "an end before everything is closed", "something else"),
+            ("a.?", "expected value", "a: no value of JSON", "something else"),
             ("a", "no digit, expected 0-9 but got y", "a: no digit, expected 0-9 but got y", "something else"),
         ];
         for (key, message, found, allowed) in cases {

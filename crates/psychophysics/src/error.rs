@@ -2,6 +2,11 @@
 
 use std::path::PathBuf;
 
+use crate::complaint::quoted;
+
+/// Most characters of a number that is written out: 17 digits, point, sign and some zeros.
+const NUMBER_LENGTH_MAX: usize = 24;
+
 /// The errors of this crate: each says what was found and what is allowed.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -79,7 +84,13 @@ pub enum Error {
 impl Error {
     /// A parameter out of its range.
     pub(crate) fn parameter(field: impl Into<String>, value: impl std::fmt::Display, allowed: &'static str) -> Self {
-        Self::Parameter { field: field.into(), value: value.to_string(), allowed }
+        let value = value.to_string();
+        // 1e308 is a number that everyone can read, its 309 digits are none.
+        let value = match value.parse::<f64>() {
+            Ok(number) if value.len() > NUMBER_LENGTH_MAX => format!("{number:e}"),
+            _ => quoted(&value),
+        };
+        Self::Parameter { field: field.into(), value, allowed }
     }
 
     /// A parameter's error under the name that it has in a protocol's table.

@@ -26,7 +26,8 @@ impl Experiment {
             }
             let ends = matches!(event, Event::End(_));
             if ends && *experiment.stage() != Stage::Finished {
-                return Err(differs(index, "the end", experiment.stage().name()));
+                let found = format!("the end of the session at the stage {}", experiment.stage().name());
+                return Err(differs(index, found, "an end after the last trial"));
             }
         }
         Ok(experiment)

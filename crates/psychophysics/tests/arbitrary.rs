@@ -100,6 +100,7 @@ fn names_its_place(message: &str, files: &[&str]) -> bool {
         && !found.is_empty()
         && !allowed.is_empty()
         && !message.contains('\n')
+        && message.len() < 2000
 }
 
 /// Reads a protocol; one that is accepted runs a session whose record is read back.

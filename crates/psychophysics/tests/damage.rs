@@ -47,14 +47,14 @@ fn a_line_that_is_no_event_is_named() {
     let fourth = line(&events, 4);
     let deep = format!("{}1{}", "[".repeat(10_000), "]".repeat(10_000));
     let cases: [(&str, [&str; 2]); 16] = [
-        (&fourth[..40], ["EOF while parsing", "one event"]),
+        (&fourth[..40], ["an end before everything is closed", "one event"]),
         ("", ["an empty line", "one event"]),
-        ("\0\0\0\0", ["expected value", "one event"]),
+        ("\0\0\0\0", ["no value of JSON", "one event"]),
         ("null", ["null", "a group of keys"]),
-        ("{}", ["no event", "event"]),
-        (r#"{"event":"trial"}"#, ["no trial", "trial"]),
+        ("{}", ["no key event", "event"]),
+        (r#"{"event":"trial"}"#, ["no key trial", "trial"]),
         (r#"{"event":"fire"}"#, ["event is `fire`", "trial, catch, practice, pause, resume, end"]),
-        (r#"{"event":"pause","notes":[]}"#, ["no at", "at"]),
+        (r#"{"event":"pause","notes":[]}"#, ["no key at", "at"]),
         (r#"{"event":"pause","at":"yesterday"}"#, ["at: ", "one event"]),
         (r#"{"event":"pause","at":null}"#, ["null", ""]),
         (r#"{"event":"pause","at":"2026-03-01T09:40:00Z","answer":"left"}"#, ["the key answer", "no such key"]),
@@ -271,7 +271,7 @@ fn a_damaged_header_is_named_by_line_and_key() {
             "\"width_px\"",
             ["protocol.pictures.width_px is null", "whole number"],
         ),
-        ("\"display\": null,\n", "", "}\n", ["no display", "display"]),
+        ("\"display\": null,\n", "", "}\n", ["no key display", "display"]),
         ("\"started_at\": \"2026", "\"started_at\": \"in 2026", "\"started_at\"", ["started_at", ""]),
         (
             "\"ratio_min\": 0.5",
@@ -308,7 +308,7 @@ fn a_session_of_another_version_is_refused_as_that() {
 }
 
 #[test]
-fn another_seed_or_participants_number_in_the_header_is_found_at_the_first_trial_that_differs() {
+fn another_seed_in_the_header_is_found_at_the_first_trial() {
     let (header, events) = files("two-alternative");
     let message = read(header.replace("\"seed\": 11", "\"seed\": 12").as_bytes(), events.as_bytes()).unwrap_err();
     assert_says(&message, EVENTS_FILE, 1, ["trial.", "the seed"]);

@@ -182,15 +182,15 @@ fn a_second_writer_is_refused_while_the_first_one_lives() {
 }
 
 #[test]
-fn another_seed_in_the_header_is_found_at_the_first_trial() {
-    let place = place();
-    record(&place.directory, small_protocol());
-    let path = place.directory.join(HEADER_FILE);
-    let text = fs::read_to_string(&path).unwrap();
-    fs::write(&path, text.replace(r#""seed": 11"#, r#""seed": 12"#)).unwrap();
-    let session = read_session(&place.directory).unwrap();
-    let message = session.replay().unwrap_err().to_string();
-    assert!(message.contains(&format!("{EVENTS_FILE}:1: ")), "{message}");
+fn another_number_of_the_participant_is_found_where_the_order_of_rounds_differs() {
+    let mut header = header(named("yes-no"));
+    let (_, events) = session(&header.protocol, SEED, header.participant_number);
+    assert!(Experiment::resume(&header, &events).is_ok());
+    header.participant_number += 1;
+    let message = Experiment::resume(&header, &events).unwrap_err().to_string();
+    // Practice is the same for everyone; the first trial of another round is not.
+    let first = header.protocol.practice.ratios.len() + 1;
+    assert!(message.starts_with(&format!("event {first}: trial.condition.")), "{message}");
 }
 
 #[test]
@@ -198,7 +198,10 @@ fn an_end_before_the_last_trial_is_found() {
     let header = header(small_protocol());
     let end = [Event::End(moment(""))];
     let message = Experiment::resume(&header, &end).unwrap_err().to_string();
-    assert_eq!(message, "event 1: the end; allowed is instructions");
+    assert_eq!(
+        message,
+        "event 1: the end of the session at the stage instructions; allowed is an end after the last trial"
+    );
 }
 
 #[test]
