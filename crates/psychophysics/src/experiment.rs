@@ -71,6 +71,8 @@ impl Stage {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Progress {
     /// Trials answered after practice, whatever their role.
+    pub answered: u32,
+    /// Trials answered that a staircase learned from.
     pub trials: u32,
     /// Fewest measured trials of the whole session, given the answers so far.
     pub trials_at_least: u32,
@@ -161,6 +163,7 @@ impl Experiment {
             self.tracks().iter().map(of_track).sum()
         };
         Progress {
+            answered: self.answered,
             trials: self.tracks().iter().map(Track::trials).sum(),
             trials_at_least: total(|trials, protocol| protocol.schedule.trials_min.max(trials + 1)),
             trials_at_most: total(|_, protocol| protocol.schedule.trials_max),

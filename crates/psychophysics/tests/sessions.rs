@@ -372,6 +372,20 @@ fn two_priors_give_two_staircases_a_condition_whose_trials_interleave() {
 }
 
 #[test]
+fn progress_counts_an_answer_of_every_role_and_apart_from_them_those_that_a_staircase_learned_from() {
+    let (mut answered, mut measured) = (0, 0);
+    watch(&named("yes-no"), 2, 0, |experiment| {
+        if let Stage::Trial(trial) = *experiment.stage() {
+            let progress = experiment.progress();
+            assert_eq!((progress.answered, progress.trials), (answered, measured));
+            answered += 1;
+            measured += u32::from(trial.role == Role::Measure);
+        }
+    });
+    assert!(answered > measured + 100, "{answered} {measured}");
+}
+
+#[test]
 fn rests_within_a_round_come_after_so_many_trials_and_never_at_its_end() {
     let mut protocol = named("yes-no");
     protocol.schedule.rest_every_trials = Some(7);

@@ -9,7 +9,7 @@ use crate::screen::Action;
 /// The screen that hides the pictures; the trial under way begins anew afterwards.
 pub(crate) fn paused(ui: &mut Ui, progress: Progress) -> Option<Action> {
     page::page(ui, 300.0, "Paused", |ui| {
-        ui.label(match progress.trials {
+        ui.label(match progress.answered {
             0 => "Your answers are saved.".to_owned(),
             1 => "One trial is answered and saved.".to_owned(),
             trials => format!("{trials} trials are answered and saved."),

@@ -133,7 +133,7 @@ fn progress(ui: &Ui, screen: Rect, experiment: &Experiment) {
     let measured_share = (1.0 - protocol.catch_trials.map_or(0.0, |catch| catch.share))
         * (1.0 - protocol.line_trials.map_or(0.0, |lines| lines.share));
     let at_most = f64::from(progress.trials_at_most) / measured_share;
-    let done = (f64::from(progress.trials) / at_most).min(1.0) as f32;
+    let done = (f64::from(progress.answered) / at_most).min(1.0) as f32;
     let track = Rect::from_center_size(centre, Vec2::new(240.0, 4.0));
     let filled = Rect::from_min_size(track.min, Vec2::new(track.width() * done, track.height()));
     ui.painter().rect_filled(track, 2.0, theme::TRACK);
