@@ -199,7 +199,10 @@ fn check_schema(tree: &Value) -> Result<(), Error> {
 fn check_estimate(tree: &Value, path: &str) -> Result<(), Error> {
     let in_range = |x: f64| x > 0.0 && x <= RATIO_MAX;
     let value = number(&tree["value"], &format!("{path}.value"), in_range, RATIO_ALLOWED)?;
-    number(&tree["standard_error"], &format!("{path}.standard_error"), |x| x >= 0.0, "a finite number, 0 or above")?;
+    // As Relation::new, which takes -0 for a sign error.
+    let is_error = |x: f64| x >= 0.0 && x.is_sign_positive();
+    let allowed = "a finite number, 0 or above, without a minus sign";
+    number(&tree["standard_error"], &format!("{path}.standard_error"), is_error, allowed)?;
     let ends = tree["ci95"].as_array().filter(|ends| ends.len() == 2);
     let ends = ends.ok_or_else(|| Error::Field {
         field: format!("{path}.ci95"),
@@ -259,6 +262,7 @@ mod tests {
             (file(&good.replace("3.5", "null")), "\"ratio.value\""),
             (file(&good.replace("3.5", "\"3.5\"")), "\"ratio.value\""),
             (file(&good.replace("0.3", "-0.3")), "\"ratio.standard_error\""),
+            (file(&good.replace("0.3", "-0.0")), "\"ratio.standard_error\""),
             (file(&good.replace("2.9", "3.6")), "\"ratio.ci95[0]\""),
             (file(&good.replace("4.1", "3.4")), "\"ratio.ci95[1]\""),
             (file(&good.replace("[2.9, 4.1]", "[2.9]")), "\"ratio.ci95\""),
