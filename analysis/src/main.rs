@@ -83,8 +83,8 @@ the others do not, trials and minutes a person, and the 95 % interval of c for 1
 Exit status 1 with the reason for a protocol that cannot measure the answer: thresholds of the median
 person and two standard deviations to either side must lie on the table of every staircase, among the
 radii that the pictures can show, and within reach of the prior: not further from it than
-sqrt(trials_max x k) of its standard deviations, k the nats by which an answer contradicts the prior;
-half of the trials then go into leaving it.")]
+sqrt(trials_max x k) of its standard deviations, k the nats by which an answer contradicts the
+staircase's expectation; half of the trials then go into leaving the prior.")]
     Plan {
         /// A protocol's name, or a file that ends in .toml.
         #[arg(long)]

@@ -338,7 +338,11 @@ fn a_yes_no_study_counts_false_alarms_and_keeps_lines_and_catch_trials_out_of_th
     assert!(with_role("line") > 100 && with_role("catch") > 0 && with_role("practice") == 0);
 
     let page = fs::read_to_string(out.path().join(REPORT)).unwrap();
-    assert!(page.contains("Lines and artifacts told apart") && page.contains("guess rate of each person"));
+    assert!(
+        page.contains("Lines and artifacts told apart")
+            && page.contains("&plusmn;")
+            && page.contains("guess rate of each person")
+    );
 }
 
 #[test]
