@@ -10,6 +10,6 @@ fuzz_target!(|bytes: &[u8]| {
     let path = file_with(bytes);
     match read_responses(&path) {
         Err(error) => assert!(error.to_string().contains(&path.display().to_string()), "{error}"),
-        Ok(responses) => assert!(responses.iter().all(|(intensity, _)| intensity.is_finite())),
+        Ok(responses) => assert!(responses.iter().all(|answer| answer.intensity.is_finite())),
     }
 });
