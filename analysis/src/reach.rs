@@ -37,9 +37,16 @@ const PEOPLE_SDS: f64 = 2.0;
 /// `expected` has each condition with the log10 of the median person's ratio at the threshold.
 ///
 /// # Errors
-/// The first condition and limit that does not hold, with what is allowed.
+/// The first limit that does not hold, in the condition farthest from a prior, with what is allowed: so
+/// that what it allows is enough for the other conditions.
 pub fn check_reach(protocol: &Protocol, expected: &[(Condition, f64)], between_sd_log10: f64) -> Result<(), Error> {
-    for (condition, median_log10) in expected {
+    let distance_log10 = |median_log10: f64| {
+        let centres = protocol.staircase.prior_ratios.iter().map(|ratio| ratio.log10());
+        centres.map(|centre| (median_log10 - centre).abs()).fold(0.0, f64::max)
+    };
+    let mut farthest_first = expected.to_vec();
+    farthest_first.sort_by(|a, b| distance_log10(b.1).total_cmp(&distance_log10(a.1)));
+    for (condition, median_log10) in &farthest_first {
         let spread = PEOPLE_SDS * between_sd_log10;
         let people = Span { low: median_log10 - spread, high: median_log10 + spread };
         let name = format!(
