@@ -60,7 +60,7 @@ Equal arguments give equal files. A session that exists is never overwritten.")]
         /// Folder in which each observer's session gets a folder.
         #[arg(long)]
         out: PathBuf,
-        /// Number of observers, 1 to 9999.
+        /// Number of observers, 1 to 99999.
         #[arg(long)]
         observers: u32,
         /// Everything random follows from it.

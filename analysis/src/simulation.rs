@@ -21,8 +21,8 @@ use crate::{
     people::{Person, Study},
 };
 
-/// Most people of one simulated study: the session folders have four digits.
-const OBSERVERS_MOST: u32 = 9999;
+/// Most people of one simulated study; beyond it a typing error is likelier than a wish.
+const OBSERVERS_MOST: u32 = 99_999;
 
 /// Detection at a simulated person's threshold: 82 % of two alternatives.
 const SIMULATED_DETECTION: f64 = 2.0 * 0.82 - 1.0;
@@ -50,7 +50,7 @@ impl Simulation {
     pub fn check(&self) -> Result<(), Error> {
         if !(1..=OBSERVERS_MOST).contains(&self.observers) {
             let value = self.observers.to_string();
-            return Err(Error::Argument { name: "--observers", value, allowed: "1 to 9999" });
+            return Err(Error::Argument { name: "--observers", value, allowed: "1 to 99999" });
         }
         let sd = self.between_sd_log10;
         if !(0.0..=1.0).contains(&sd) {

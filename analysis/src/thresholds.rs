@@ -5,7 +5,7 @@
 //! harder it is to tell an artifact from a line. The threshold is the ratio at which the artifact is seen in
 //! the share of trials that the protocol's threshold stands for, whatever the person's guess rate.
 //!
-//! The slope is not fitted: 10 to 28 adaptive answers a condition sit at one or two intensities and
+//! The slope is not fitted: 10 to 36 adaptive answers a condition sit at one or two intensities and
 //! bound a location, not a slope. A wrong slope hardly moves the threshold, because QUEST places
 //! its trials there, but it moves every other probability of detection.
 
@@ -72,7 +72,7 @@ pub fn thresholds_of(person: &Person, protocol: &Protocol) -> Vec<ConditionThres
 /// ratio, which is the relation `r = c a` itself.
 ///
 /// A maximum-likelihood location from `n` adaptive answers is off by a term of order `1 / n`: the mean of
-/// three separate fits of 10 to 28 answers overstates the ratio by 5 %, the joint fit by less than 1 %
+/// three separate fits of 10 to 36 answers overstates the ratio by 5 %, the joint fit by less than 1 %
 /// (simulated cohorts, `examples/coverage.rs`).
 ///
 /// # Errors
