@@ -7,7 +7,7 @@ use scumble_psychophysics::Protocol;
 
 use crate::{
     Error,
-    assumptions::Assumptions,
+    assumptions::{Assumptions, DETECTION_AT_THRESHOLD},
     estimate::MeanOverPeople,
     people::Study,
     population::Population,
@@ -73,7 +73,7 @@ impl Analysis {
         let population = Population {
             thresholds: series[worst].log10_ratio,
             measurement_variance: series[worst].measurement_variance(),
-            detection_at_threshold: known.detection_at_threshold,
+            detection_at_threshold: DETECTION_AT_THRESHOLD,
             slope: known.slope,
             blind_share: known.blind_share,
         };

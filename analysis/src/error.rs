@@ -11,13 +11,13 @@ pub enum Unidentified {
     #[error("there is no answer")]
     NoAnswers,
     /// Every answer was correct.
-    #[error("all {total} answers were correct: the threshold lies below everything that was shown")]
+    #[error("all {total} answers were correct: nothing that was shown was hard enough to reach the threshold")]
     AllCorrect {
         /// Number of answers.
         total: f64,
     },
     /// No answer was correct.
-    #[error("all {total} answers were wrong: the threshold lies above everything that was shown")]
+    #[error("all {total} answers were wrong: nothing that was shown was easy enough to reach the threshold")]
     AllWrong {
         /// Number of answers.
         total: f64,
@@ -26,10 +26,10 @@ pub enum Unidentified {
     #[error("all answers are at one level: a slope needs at least two")]
     OneLevel,
     /// The answers agree with a threshold arbitrarily far below the data.
-    #[error("the answers do not bound the threshold from below: they also fit an observer who sees everything")]
+    #[error("the answers do not bound the threshold: they also fit an observer who sees everything")]
     NoLowerBound,
     /// The answers agree with a threshold arbitrarily far above the data.
-    #[error("the answers do not bound the threshold from above: they also fit an observer who guesses")]
+    #[error("the answers do not bound the threshold: they also fit an observer who guesses")]
     NoUpperBound,
     /// The answers agree with a slope at an end of its range: a jump, or no dependence on the level.
     #[error("the answers do not bound the slope: they also fit one of {slope} per decade")]

@@ -39,7 +39,10 @@ enum Command {
   scumble-analysis fit data/p01 data/p02 --out fit two sessions
 
 Writes into OUT: relation.json, report.html, trials.csv, thresholds.csv, fit.svg, staircases.svg.
-Running it again replaces these files; a file of another kind under one of the names is refused.")]
+Running it again replaces these files; a file of another kind under one of the names is refused.
+
+The largest ratio under the protocol's first kernel goes into relation.json: a ratio holds for one kernel.
+At least two people are needed. Lines alone and catch trials check the people; thresholds do not use them.")]
     Fit {
         /// A session, or a folder with sessions directly in it.
         #[arg(required = true, value_name = "DIR")]
@@ -84,14 +87,18 @@ Exit status 1 with the reason for a protocol that cannot measure the answer: thr
 person and two standard deviations to either side must lie on the table of every staircase, among the
 radii that the pictures can show, and within reach of the prior: not further from it than
 sqrt(trials_max x k) of its standard deviations, k the nats by which an answer contradicts the
-staircase's expectation; half of the trials then go into leaving the prior.")]
+staircase's expectation; half of the trials then go into leaving the prior. So is one most of whose
+simulated staircases do not converge.
+
+Simulated people differ from condition to condition by assumption: the stair is hidden at 0.72 of the
+step's ratio, half the contrast at 0.95 of the full one's, and the kernel changes nothing.")]
     Plan {
         /// A protocol's name, or a file that ends in .toml.
         #[arg(long)]
         protocol: String,
         #[command(flatten)]
         people: People,
-        /// Number of simulated people, 20 to 100000.
+        /// Number of simulated people, 1 to 99999; cohorts of 10 and more need as many.
         #[arg(long, default_value_t = 2000)]
         sessions: u32,
         /// Everything random follows from it.
@@ -111,7 +118,8 @@ staircase's expectation; half of the trials then go into leaving the prior.")]
 
 Every placement, radius and draw must equal the recorded one bit for bit, and every picture whose hash
 the record holds is drawn again. Prints one line a session; stops with exit status 1 at the first line
-of a record that differs, which it names.")]
+of a record that differs, which it names. A response time, or a last answer that is changed together with
+its `correct`, leads to nothing that could differ.")]
     Replay {
         /// A session, or a folder with sessions directly in it.
         #[arg(required = true, value_name = "SESSION")]
@@ -157,7 +165,7 @@ x = log10(level). x82 is the x of 82 % correct, nll the negative log likelihood.
 #[derive(Args)]
 struct People {
     /// Kind of observer: weibull sees the artifact or not, signal-detection has noisy traces and a
-    /// criterion, image sees the pictures alone (slow).
+    /// criterion, image sees the pictures alone (slow, and not for plan, which must know the thresholds).
     #[arg(long, default_value = "weibull")]
     observer: String,
     /// The median observer's threshold for the step at 100 % contrast, radius in texels.
@@ -247,7 +255,7 @@ fn fit(sessions: &[PathBuf], out: &Path) -> anyhow::Result<()> {
         eprintln!("notice: {exclusion}");
     }
     println!("people     {}", study.people.len());
-    println!("trials     {}", study.trial_count());
+    println!("trials     {} measured", study.trial_count());
     for (index, series) in analysis.series.iter().enumerate() {
         let [low, high] = series.ratio_ci95();
         let mark = if index == analysis.worst { "  <- relation.json" } else { "" };
@@ -301,11 +309,12 @@ fn replay(paths: &[PathBuf]) -> anyhow::Result<()> {
                 count => format!("{count} pictures"),
             };
             println!(
-                "{}: equal: {} trials, {} practice trials, {} staircases, {pictures}",
+                "{}: equal: {} trials, {} practice trials, {} staircases, {pictures}{}",
                 directory.display(),
                 replayed.trials,
                 replayed.practice,
                 replayed.staircases,
+                if session.is_complete() { "" } else { "; not finished" },
             );
         }
     }

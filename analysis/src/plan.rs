@@ -10,6 +10,8 @@
 //!   make it smaller.
 //! * Time: trials, practice included, times an assumed duration; rests are not in it.
 //!
+//! A study is refused where fewer than half of the staircases converge: its people sit there for nothing.
+//!
 //! What it says holds for people like the simulated ones: their slope and lapses are assumptions too.
 
 use rayon::prelude::*;
@@ -53,7 +55,8 @@ pub struct Plan {
     pub staircases: Staircases,
     /// One a pattern, contrast and kernel.
     pub series: Vec<SeriesForecast>,
-    /// The series with the largest expected threshold, which the intervals are about.
+    /// The series with the largest expected threshold under the protocol's first kernel, which a fit writes
+    /// for renderers and the intervals are about.
     pub worst: String,
     /// The median person's true ratio there.
     pub worst_ratio: f64,
@@ -169,9 +172,14 @@ impl Plan {
             .collect::<Result<_, Error>>()?;
 
         let series = series_forecasts(protocol, &truths, &outcomes);
-        let Some(worst) = (0..series.len()).max_by(|&a, &b| series[a].ratio.total_cmp(&series[b].ratio)) else {
+        let rounds = protocol.rounds();
+        let of_kernel = |index: &usize| rounds[*index].kernel == protocol.conditions.kernels[0];
+        let larger = |a: &usize, b: &usize| series[*a].ratio.total_cmp(&series[*b].ratio);
+        let Some(worst) = (0..series.len()).filter(of_kernel).max_by(larger) else {
             return Err(Error::CannotPlan("the protocol has no round".to_owned()));
         };
+        let staircases = outcomes.iter().fold(Staircases::default(), |sum, outcome| sum.plus(outcome.staircases));
+        check_staircases(protocol, &staircases)?;
         let trials: Vec<f64> = outcomes.iter().map(|outcome| outcome.trials as f64).collect();
         let minutes: Vec<f64> = trials.iter().map(|trials| trials * secs_per_trial / 60.0).collect();
         Ok(Self {
@@ -180,7 +188,7 @@ impl Plan {
             trials: Spread::of(trials),
             minutes: Spread::of(minutes),
             secs_per_trial,
-            staircases: outcomes.iter().fold(Staircases::default(), |sum, outcome| sum.plus(outcome.staircases)),
+            staircases,
             worst: series[worst].name.clone(),
             worst_ratio: series[worst].ratio,
             intervals: interval_forecasts(&outcomes, worst, series[worst].ratio),
@@ -232,6 +240,25 @@ fn series_forecasts(protocol: &Protocol, truths: &[(Condition, f64)], outcomes: 
         }
     };
     protocol.rounds().into_iter().enumerate().map(forecast).collect()
+}
+
+/// Refuses a study most of whose staircases end without a threshold.
+fn check_staircases(protocol: &Protocol, staircases: &Staircases) -> Result<(), Error> {
+    if 2 * staircases.converged >= staircases.count {
+        return Ok(());
+    }
+    let reasons = [
+        ("interval too wide", staircases.wide),
+        ("too few answers of a kind", staircases.one_sided),
+        ("estimate at an end", staircases.at_edge),
+        ("halves differ", staircases.halves_differ),
+    ];
+    let (reason, _) = reasons.into_iter().max_by_key(|(_, count)| *count).unwrap_or_default();
+    Err(Error::CannotPlan(format!(
+        "{} of {} simulated staircases converge within {} trials, most often for this reason: {reason}; allowed is half of \
+         them and more",
+        staircases.converged, staircases.count, protocol.schedule.trials_max
+    )))
 }
 
 fn interval_forecasts(outcomes: &[Outcome], worst: usize, truth: f64) -> Vec<IntervalForecast> {

@@ -17,15 +17,11 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::{
     Error,
-    assumptions::Assumptions,
     people::{Person, Study},
 };
 
 /// Most people of one simulated study; beyond it a typing error is likelier than a wish.
 const OBSERVERS_MOST: u32 = 99_999;
-
-/// Detection at a simulated person's threshold: 82 % of two alternatives.
-const SIMULATED_DETECTION: f64 = 2.0 * 0.82 - 1.0;
 
 /// A study of simulated people.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,19 +112,12 @@ impl Simulation {
         Ok(directories)
     }
 
-    /// log10 of the median person's ratio at the threshold that the protocol measures.
-    ///
-    /// A simulated threshold is that of 82 % of two alternatives, detected on 64 % of the trials. For a
-    /// protocol with another detection `d` it moves by `log10(w(0.64) / w(d)) / slope`,
-    /// `w(d) = -ln(1 - d / (1 - blind))`, at the protocol's slope and blind share.
+    /// log10 of the median person's ratio at the threshold.
     ///
     /// # Errors
     /// An observer whose thresholds are not known in advance.
     pub fn true_log10(&self, condition: &Condition) -> Result<f64, Error> {
-        let known = Assumptions::of_protocol(&self.protocol);
-        let strength = |detection: f64| -(-detection / (1.0 - known.blind_share)).ln_1p();
-        let shift = (strength(SIMULATED_DETECTION) / strength(known.detection_at_threshold)).log10() / known.slope;
-        Ok(self.known_ratio(&self.median, condition)?.log10() + shift)
+        Ok(self.known_ratio(&self.median, condition)?.log10())
     }
 
     /// How far person `index`'s thresholds lie from the median person's, log10 units.

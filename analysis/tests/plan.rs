@@ -7,6 +7,7 @@ use std::{fs, path::Path, process::Command, sync::Mutex};
 
 use scumble_analysis::{Plan, Simulation};
 use scumble_psychophysics::{ObserverModel, Protocol};
+use scumble_stimuli::Kernel;
 
 fn simulation(protocol: Protocol, observers: u32) -> Simulation {
     Simulation { protocol, observers, seed: 1, median: ObserverModel::default(), between_sd_log10: 0.1 }
@@ -57,15 +58,34 @@ fn the_published_protocol_is_foretold_to_be_biased_by_people_who_rarely_say_yes_
 }
 
 #[test]
-fn a_protocol_with_another_threshold_is_foretold_against_its_own_truth() {
+fn a_ratio_means_the_same_whatever_probability_the_staircases_aim_at() {
+    for probability in [0.75, 0.9] {
+        let mut protocol = Protocol::two_alternative();
+        protocol.staircase.threshold_probability = probability;
+        let plan = Plan::of(&simulation(protocol, 300), 5.0, || ()).unwrap();
+        let worst = plan.series.iter().find(|series| series.name == plan.worst).unwrap();
+        assert!((plan.worst_ratio / 3.47 - 1.0).abs() < 1e-12, "{}", plan.worst_ratio);
+        assert!(worst.person_ratio.bias_log10.abs() < 0.02, "{probability}: {worst:?}");
+    }
+}
+
+#[test]
+fn a_study_whose_staircases_seldom_converge_is_refused_with_the_commonest_reason() {
     let mut protocol = Protocol::two_alternative();
-    protocol.staircase.threshold_probability = 0.75;
-    let plan = Plan::of(&simulation(protocol, 300), 5.0, || ()).unwrap();
-    let worst = plan.series.iter().find(|series| series.name == plan.worst).unwrap();
-    // Seen on half of the trials instead of 64 %: log10(w(0.64) / w(0.5)) / 3.5 = 0.0486 log10 more.
-    let expected = 3.47 * 10_f64.powf(0.0486);
-    assert!((plan.worst_ratio / expected - 1.0).abs() < 2e-3, "{}", plan.worst_ratio);
-    assert!(worst.person_ratio.bias_log10.abs() < 0.02, "{worst:?}");
+    protocol.schedule.trials_max = 10;
+    protocol.convergence.interval_width_log10 = 0.1;
+    let message = refusal(&simulation(protocol, 20));
+    for part in ["0 of 240 simulated staircases converge within 10 trials", "interval too wide", "allowed is half"] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+}
+
+#[test]
+fn the_interval_is_that_of_the_first_kernel_which_a_fit_writes() {
+    let mut protocol = Protocol::two_alternative();
+    protocol.conditions.kernels = vec![Kernel::Box, Kernel::Disc];
+    let plan = Plan::of(&simulation(protocol, 20), 5.0, || ()).unwrap();
+    assert!(plan.worst.ends_with("box"), "{}", plan.worst);
 }
 
 #[test]

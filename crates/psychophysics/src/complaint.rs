@@ -63,10 +63,11 @@ pub(crate) fn quoted(text: &str) -> String {
 
 /// The allowed key that `name` is without its unit, or with another one: `width` for `width_px`.
 fn with_unit(name: &str, allowed: &str) -> Option<String> {
-    let keys = allowed.trim_start_matches("one of ").split([',', ' ']).filter(|key| key.contains('_'));
+    let keys = || allowed.trim_start_matches("one of ").split([',', ' ']).filter(|key| key.contains('_'));
     let stem_of = |key: &'_ str| key.rsplit_once('_').map_or(key.to_owned(), |(stem, _)| stem.to_owned());
-    let mut candidates = keys.filter(|key| [name.to_owned(), stem_of(name)].contains(&stem_of(key)));
-    candidates.next().map(|key| format!("{key}, the whole name with its unit"))
+    let is_stem = |key: &&str| stem_of(key) == name;
+    let shares_stem = |key: &&str| stem_of(key) == stem_of(name);
+    keys().find(is_stem).or_else(|| keys().find(shares_stem)).map(|key| format!("{key}, the whole name with its unit"))
 }
 
 /// What serde expects, without the names of Rust's types.
@@ -152,6 +153,8 @@ mod tests {
             let message = format!("unknown field `{name}`, expected one of `width_px`, `height_px`");
             assert_eq!(told("pictures", &message).1, "width_px, the whole name with its unit");
         }
+        let message = "unknown field `prior_sd`, expected one of `prior_ratios`, `prior_sd_log10`";
+        assert_eq!(told("staircase", message).1, "prior_sd_log10, the whole name with its unit");
     }
 
     #[test]

@@ -13,6 +13,8 @@ use crate::screen::Action;
 const SIZE: Vec2 = Vec2::new(308.0, 88.0);
 /// Texel of an example, in points: coarse, so that nobody misses the steps.
 const TEXEL: f32 = 14.0;
+/// Turn of the example of a step: as much as its line rises, so that slant does not look like the answer.
+const STEP_TILT_RAD: f64 = 0.05;
 /// Radius of an example's filter in texels: little blur.
 const RATIO: f64 = 0.5;
 /// Height of the page without and with one row of examples, in points.
@@ -129,7 +131,7 @@ fn example(pattern: Pattern, shape: Shape, scale: f32) -> Stimulus {
         phase: 0.5,
         mirrored: false,
         inverted: false,
-        tilt_rad: 0.0,
+        tilt_rad: if pattern == Pattern::Step && shape == Shape::Artifact { STEP_TILT_RAD } else { 0.0 },
         dither_seed: None,
     }
 }
