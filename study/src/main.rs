@@ -12,6 +12,7 @@ mod recorder;
 mod screen;
 mod study;
 mod theme;
+mod words;
 
 use std::cell::RefCell;
 use std::process::ExitCode;

@@ -48,6 +48,7 @@ mod grid;
 mod header;
 mod header_file;
 mod image_observer;
+mod language;
 mod latin_square;
 mod likelihood;
 mod normal;
@@ -88,6 +89,7 @@ pub use fatigue::Fatigue;
 pub use grid::Shown;
 pub use header::{Display, Luminance, SESSION_SCHEMA, SessionHeader, Software};
 pub use image_observer::ImageObserver;
+pub use language::Language;
 pub use observer::{Observer, ObserverModel};
 pub use protocol::{
     CatchTrials, Conditions, LineTrials, Order, PictureRules, Practice, Protocol, Round, Schedule, Task,
