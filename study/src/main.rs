@@ -10,6 +10,7 @@ mod pixels;
 mod presentation;
 mod recorder;
 mod screen;
+mod setup;
 mod study;
 mod theme;
 mod words;

@@ -24,19 +24,23 @@ impl Protocol {
 
     /// The shipped protocol of a name; the error lists the names.
     pub fn named(name: &str) -> Result<Self, Error> {
-        let found = SHIPPED.iter().find(|(known, _)| *known == name);
-        let allowed = "published, two-alternative, yes-no, or a file that ends in .toml";
-        found.map(|(_, text)| shipped(text)).ok_or_else(|| Error::parameter("protocol", name, allowed))
+        shipped_text(name).map(shipped)
     }
 
     /// The protocol of a name on the command line: a shipped one, or a file that ends in `.toml`.
     pub fn open(name: &str) -> Result<Self, Error> {
+        Self::open_with_text(name).map(|(protocol, _)| protocol)
+    }
+
+    /// [`Protocol::open`] with the bytes that were read, comments and all, for who keeps a copy.
+    pub fn open_with_text(name: &str) -> Result<(Self, Vec<u8>), Error> {
         if !name.ends_with(".toml") {
-            return Self::named(name);
+            let text = shipped_text(name)?;
+            return Ok((shipped(text), text.into()));
         }
         let path = Path::new(name);
         let bytes = std::fs::read(path).map_err(Error::io(path))?;
-        Self::from_toml(path, bytes)
+        Ok((Self::from_toml(path, &bytes)?, bytes))
     }
 
     /// The protocol of a file's text, checked; `path` is for messages.
@@ -65,6 +69,13 @@ impl Protocol {
     pub fn to_toml(&self) -> Result<String, Error> {
         toml::to_string_pretty(self).map_err(|error| Error::parameter("protocol", error, "what TOML can hold"))
     }
+}
+
+/// The file of the shipped protocol of a name; the error lists the names.
+fn shipped_text(name: &str) -> Result<&'static str, Error> {
+    let found = SHIPPED.iter().find(|(known, _)| *known == name);
+    let allowed = "published, two-alternative, yes-no, or a file that ends in .toml";
+    found.map(|(_, text)| *text).ok_or_else(|| Error::parameter("protocol", name, allowed))
 }
 
 /// A protocol of this crate; tests read every one.
