@@ -23,15 +23,21 @@ pub const VULKAN: Need = Need {
     packages: &["libvulkan1", "mesa-vulkan-drivers"],
 };
 
-/// A display, a window manager, keys and screenshots for tests of the real window.
+/// Displays of one and two monitors, a window manager, keys, screenshots, small disks and a clock for tests of the
+/// real window.
 pub const WINDOWS: Need = Need {
-    purpose: "a virtual display with keys and screenshots (tests of the study window)",
+    purpose: "virtual displays with keys and screenshots, small disks and a clock to set (tests of the study window)",
     present: has_window_tools,
     packages: &[
         "xvfb",
+        "xserver-xorg-core",
+        "xserver-xorg-video-dummy",
         "xdotool",
         "openbox",
         "imagemagick",
+        "libfaketime",
+        "mount",
+        "util-linux",
         "libx11-xcb1",
         "libxcursor1",
         "libxi6",
@@ -66,7 +72,9 @@ pub fn provide(needs: &[Need]) -> Result<()> {
 /// Refreshes the lists (a new machine has none) and installs; asks `sudo` only where the user is not root.
 fn install(packages: &[&str]) -> Result<()> {
     let root = run::output("id", &["-u"])?.trim() == "0";
-    let (program, prefix): (&str, &[&str]) = if root { ("apt-get", &[]) } else { ("sudo", &["apt-get"]) };
+    // `sudo` drops the environment, and a package with questions (a keyboard's layout) must not ask them.
+    let by_sudo: &[&str] = &["env", "DEBIAN_FRONTEND=noninteractive", "apt-get"];
+    let (program, prefix): (&str, &[&str]) = if root { ("apt-get", &[]) } else { ("sudo", by_sudo) };
     let quiet = ["-qq", "-o", "Dpkg::Use-Pty=0"];
     let update = [prefix, &["update"], &quiet].concat();
     let install = [prefix, &["install", "-y", "--no-install-recommends"], &quiet, packages].concat();
@@ -92,9 +100,21 @@ fn holds_a_file(folder: &Path) -> bool {
 }
 
 fn has_window_tools() -> bool {
-    let programs = ["Xvfb", "xdotool", "openbox", "import"];
+    let programs = ["Xvfb", "Xorg", "xdotool", "openbox", "import", "unshare", "nsenter", "mount"];
     let libraries = ["libX11-xcb.so.1", "libXcursor.so.1", "libXi.so.6", "libxkbcommon-x11.so.0"];
-    programs.iter().all(|name| on_path(name)) && libraries.iter().all(|name| has_library(name))
+    let below_libraries = ["xorg/modules/drivers/dummy_drv.so", "faketime/libfaketime.so.1"];
+    programs.iter().all(|name| on_path(name))
+        && libraries.iter().all(|name| has_library(name))
+        && below_libraries.iter().all(|file| is_below_libraries(file))
+}
+
+/// Whether a folder of libraries has `file`: `/usr/lib`, `/usr/lib64`, or one in them such as Debian's `x86_64-linux-gnu`.
+fn is_below_libraries(file: &str) -> bool {
+    let has = |folder: &Path| folder.join(file).is_file();
+    ["/usr/lib", "/usr/lib64"].map(Path::new).into_iter().any(|folder| {
+        let mut inside = std::fs::read_dir(folder).into_iter().flatten().flatten();
+        has(folder) || inside.any(|entry| has(&entry.path()))
+    })
 }
 
 fn on_path(program: &str) -> bool {

@@ -3,7 +3,8 @@
 use scumble_psychophysics::{Answer, Event, Protocol, Role};
 use scumble_stimuli::Shape;
 
-use crate::screen::{Pixels, Screen};
+use crate::pixels::Pixels;
+use crate::screen::Screen;
 use crate::sitting::{Sitting, roles, short};
 
 /// Rows at the lower end of the screen that hold the progress.
@@ -33,12 +34,13 @@ fn a_yes_no_session_survives_a_crash_and_no_trial_looks_unlike_another() {
     let protocol = yes_no();
     let seed = seed_with_every_role(&protocol);
     let expected_roles = roles(&protocol, seed);
-    let mut sitting = Sitting::start(&screen, folder.path(), protocol, seed, "1");
+    let mut sitting = Sitting::start(&screen, folder.path(), protocol, seed, &[]);
     let mut surroundings: Option<Pixels> = None;
     for index in 0.. {
         let Some((trial, corners)) = sitting.next() else { break };
         if index == 2 {
-            sitting.crash_and_resume();
+            sitting.crash();
+            sitting.resume();
             assert_eq!(sitting.see(&trial), corners, "the same trial at the same place");
         }
         let [x, y] = corners[0];
@@ -66,7 +68,7 @@ fn a_yes_no_session_survives_a_crash_and_no_trial_looks_unlike_another() {
 fn a_published_session_shows_artifacts_alone_and_takes_clicks() {
     let folder = tempfile::tempdir().unwrap();
     let screen = Screen::start([1920, 1080]);
-    let mut sitting = Sitting::start(&screen, folder.path(), short("published"), 5, "1");
+    let mut sitting = Sitting::start(&screen, folder.path(), short("published"), 5, &[]);
     for index in 0.. {
         let Some((_, corners)) = sitting.next() else { break };
         // Buttons below the halves of the picture; their middles are 46 points below its edge.

@@ -1,7 +1,7 @@
 //! A participant at the window, and the state machine that knows what the window must show.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitStatus;
+use std::process::{Command, ExitStatus};
 
 use image::GrayImage;
 use scumble_psychophysics::{
@@ -9,7 +9,8 @@ use scumble_psychophysics::{
 };
 use scumble_stimuli::{Transfer, picture_sha256};
 
-use crate::screen::{Running, Screen, wait_for};
+use crate::programs::{Running, wait_for};
+use crate::screen::Screen;
 
 /// The number of the participant, whose code has none.
 pub const PARTICIPANT_NUMBER: u32 = 3;
@@ -19,8 +20,9 @@ pub struct Sitting<'a> {
     screen: &'a Screen,
     protocol: Protocol,
     session: PathBuf,
+    /// Names the session on the command line.
     common: Vec<String>,
-    scale: String,
+    environment: Vec<(&'a str, &'a str)>,
     pub study: Running,
     expected: Experiment,
     given: Vec<(Trial, Answer)>,
@@ -52,19 +54,26 @@ pub fn roles(protocol: &Protocol, seed: u64) -> Vec<Role> {
 }
 
 impl<'a> Sitting<'a> {
-    /// Opens the window on a protocol file in `folder`.
-    pub fn start(screen: &'a Screen, folder: &Path, protocol: Protocol, seed: u64, scale: &str) -> Self {
+    /// Opens the window on a protocol file in `folder`, where the session goes as well.
+    pub fn start(
+        screen: &'a Screen,
+        folder: &Path,
+        protocol: Protocol,
+        seed: u64,
+        environment: &[(&'a str, &'a str)],
+    ) -> Self {
         let file = folder.join("protocol.toml");
         std::fs::write(&file, protocol.to_toml().unwrap()).unwrap();
-        let data = folder.join(format!("study-{scale}"));
+        let data = folder.join("study");
         let common = ["--data", data.to_str().unwrap(), "--participant", "someone"].map(String::from).to_vec();
         let [seed_text, number] = [seed.to_string(), PARTICIPANT_NUMBER.to_string()];
         let fresh = ["--protocol", file.to_str().unwrap(), "--seed", &seed_text, "--participant-number", &number]
             .map(String::from);
-        let study = screen.study(&[&common[..], &fresh].concat(), scale);
+        let study = Running(screen.study(&[&common[..], &fresh].concat(), environment).spawn().unwrap());
+        let environment = environment.to_vec();
         let expected = Experiment::new(protocol.clone(), seed, PARTICIPANT_NUMBER).unwrap();
         let session = data.join("someone");
-        Self { screen, protocol, session, common, scale: scale.into(), study, expected, given: Vec::new(), moments: 0 }
+        Self { screen, protocol, session, common, environment, study, expected, given: Vec::new(), moments: 0 }
     }
 
     /// Goes to the next trial: presses the space bar until all of its pictures are on the screen, bit
@@ -105,12 +114,39 @@ impl<'a> Sitting<'a> {
         assert_eq!(on_disk.collect::<Vec<_>>(), self.given);
     }
 
-    /// Kills the program and starts it anew with --resume.
-    pub fn crash_and_resume(&mut self) {
+    /// Presses the key of the left or the right answer.
+    pub fn answer_left(&mut self, left: bool) {
+        let answers = self.expected.stage().trial().unwrap().pictures.answers();
+        if left { self.answer("key Left", answers[0]) } else { self.answer("key Right", answers[1]) }
+    }
+
+    /// Kills the program.
+    pub fn crash(&mut self) {
         self.study.0.kill().unwrap();
         self.study.0.wait().unwrap();
-        self.study = self.screen.study(&[&self.common[..], &["--resume".into()]].concat(), &self.scale);
+    }
+
+    /// Asks the window manager to close the window, and waits until the program ends.
+    pub fn close(&mut self) {
+        self.screen.input("key alt+F4");
+        assert!(!self.exit_status().success(), "the session is not complete");
         self.moments += 1;
+    }
+
+    /// Starts the program anew with --resume.
+    pub fn resume(&mut self) {
+        self.study = Running(self.resuming().spawn().unwrap());
+        self.moments += 1;
+    }
+
+    /// The command that goes on with the session.
+    pub fn resuming(&self) -> Command {
+        self.screen.study(&[&self.common[..], &["--resume".into()]].concat(), &self.environment)
+    }
+
+    /// Where the session lies.
+    pub fn session(&self) -> &Path {
+        &self.session
     }
 
     /// The record as it is on disk.
@@ -127,7 +163,10 @@ impl<'a> Sitting<'a> {
     /// replays, and the pictures that its trials describe have the hashes of those that were drawn.
     pub fn finish(mut self) -> Session {
         assert_eq!(next_trial(&mut self.expected), None, "trials are left");
-        wait_for("the end on disk", || self.record().is_complete().then_some(()));
+        wait_for("the end on disk", || {
+            self.screen.input("key space");
+            self.record().is_complete().then_some(())
+        });
         self.screen.input("key space");
         assert!(self.exit_status().success(), "the session is complete");
         let record = self.record();

@@ -2,7 +2,8 @@
 
 use scumble_psychophysics::{Answer, Event, Protocol};
 
-use crate::screen::{Screen, wait_for};
+use crate::programs::wait_for;
+use crate::screen::Screen;
 use crate::sitting::{Sitting, short};
 
 /// Two rounds of two trials, and two trials to practise.
@@ -18,12 +19,13 @@ fn short_protocol() -> Protocol {
 fn a_session_of_two_pictures_survives_a_crash_and_is_on_disk_answer_by_answer() {
     let folder = tempfile::tempdir().unwrap();
     let screen = Screen::start([1280, 800]);
-    let mut sitting = Sitting::start(&screen, folder.path(), short_protocol(), 11, "1");
+    let mut sitting = Sitting::start(&screen, folder.path(), short_protocol(), 11, &[]);
     for index in 0.. {
         let Some((trial, corners)) = sitting.next() else { break };
         // A crash while the pictures of the fifth trial are on the screen.
         if index == 4 {
-            sitting.crash_and_resume();
+            sitting.crash();
+            sitting.resume();
             assert_eq!(sitting.see(&trial), corners, "the same trial at the same place");
         }
         match index {
@@ -48,11 +50,12 @@ fn a_session_of_two_pictures_survives_a_crash_and_is_on_disk_answer_by_answer() 
 }
 
 #[test]
-fn a_texel_is_a_physical_pixel_at_fractional_scale_factors() {
-    let folder = tempfile::tempdir().unwrap();
+fn a_texel_is_a_physical_pixel_whatever_the_scale_factor() {
     let screen = Screen::start([1601, 1003]);
-    for scale in ["1.25", "1.5"] {
-        let mut sitting = Sitting::start(&screen, folder.path(), short_protocol(), 11, scale);
+    for scale in ["1.25", "1.5", "2"] {
+        let folder = tempfile::tempdir().unwrap();
+        let environment = [("WINIT_X11_SCALE_FACTOR", scale)];
+        let mut sitting = Sitting::start(&screen, folder.path(), short_protocol(), 11, &environment);
         let (_, corners) = sitting.next().unwrap();
         let [left, right] = [corners[0], corners[1]];
         assert_eq!(left[1], right[1]);
@@ -64,7 +67,7 @@ fn a_texel_is_a_physical_pixel_at_fractional_scale_factors() {
 fn escape_hides_the_pictures_and_the_pause_is_on_record() {
     let folder = tempfile::tempdir().unwrap();
     let screen = Screen::start([1280, 800]);
-    let mut sitting = Sitting::start(&screen, folder.path(), short_protocol(), 11, "1");
+    let mut sitting = Sitting::start(&screen, folder.path(), short_protocol(), 11, &[]);
     let (trial, _) = sitting.next().unwrap();
 
     screen.input("key Escape");
