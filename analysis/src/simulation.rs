@@ -67,7 +67,7 @@ impl Simulation {
         let seed = self.cohort().session_seed(index);
         let mut experiment = Experiment::new(self.protocol.clone(), seed, index + 1)?;
         let mut events = rehearse(&mut experiment, &observer)?;
-        events.push(Event::End(Moment { at: Timestamp::UNIX_EPOCH, notes: Vec::new() }));
+        events.push(Event::End(Moment { at: Timestamp::UNIX_EPOCH, notes: Vec::new(), interrupted_secs: None }));
         Ok((experiment, events))
     }
 

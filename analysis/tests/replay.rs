@@ -37,6 +37,7 @@ fn record(directory: &Path, task: &str) {
             answer: person.answer(&trial, &experiment.protocol().pictures).unwrap(),
             response_time_secs: 1.0,
             pictures_sha256,
+            timing: None,
         };
         writer.append(&experiment.answer(reply).unwrap()).unwrap();
     }

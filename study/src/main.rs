@@ -5,12 +5,17 @@
 //! and puts every answer on disk before the next picture.
 
 mod arguments;
+mod clock;
+mod display;
 mod keys;
 mod pixels;
 mod presentation;
 mod recorder;
+mod rehearsal;
 mod screen;
 mod setup;
+mod session_folder;
+mod sitting;
 mod study;
 mod theme;
 mod words;
@@ -21,11 +26,13 @@ use std::rc::Rc;
 
 use clap::Parser;
 use eframe::egui;
-use scumble_psychophysics::Experiment;
+use scumble_psychophysics::{Observer, Protocol};
 
-use crate::arguments::Arguments;
-use crate::recorder::Recorder;
-use crate::study::{Outcome, Start, Study};
+use crate::arguments::{Arguments, ResumePolicy};
+use crate::rehearsal::Rehearsal;
+use crate::session_folder::{Found, find};
+use crate::sitting::Sitting;
+use crate::study::{Outcome, Study};
 
 fn main() -> ExitCode {
     match run(&Arguments::parse()) {
@@ -37,41 +44,86 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs one session; success means that it is complete and on disk.
+/// Runs one session; success means that it is complete, or was ended on purpose, and on disk.
 fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let directory = arguments.session_directory();
-    let (recorder, experiment, start) = if arguments.resume {
-        let (recorder, experiment, notices) = Recorder::reopen(&directory)?;
-        (recorder, experiment, Start::Resumed { notices })
-    } else {
-        let header = arguments.header()?;
-        let experiment = Experiment::new(header.protocol.clone(), header.seed, header.participant_number)?;
-        let recorder = Recorder::plan(&directory, header, arguments.px_per_degree)?;
-        (recorder, experiment, Start::Fresh)
+    let sitting = sitting(arguments)?;
+    let directory = sitting.recorder().directory().to_path_buf();
+    let rehearsal = match arguments.rehearse {
+        Some(model) => Some(Rehearsal::new(Observer::new(model, sitting.recorder().header().seed)?, arguments.speed)),
+        None => None,
     };
 
-    let outcome = Rc::new(RefCell::new(Outcome::Interrupted));
-    let study = Study::new(experiment, recorder, start, Rc::clone(&outcome));
+    let outcome = Rc::new(RefCell::new(Outcome::default()));
+    let study = Study::new(sitting, rehearsal, arguments.px_per_degree, Rc::clone(&outcome));
     let create = move |context: &eframe::CreationContext<'_>| {
         theme::apply(&context.egui_ctx);
         Ok(Box::new(study) as Box<dyn eframe::App>)
     };
-    eframe::run_native("Scumble study", window_options(arguments.windowed), Box::new(create))
+    eframe::run_native("Scumble study", window_options(arguments), Box::new(create))
         .map_err(|error| anyhow::anyhow!("no window: {error}"))?;
 
+    let how_to_resume = || {
+        let [data, code] = [directory.parent(), directory.file_name().map(AsRef::as_ref)]
+            .map(|part| part.map_or_else(String::new, |part| part.display().to_string()));
+        format!("continue with --data {data} --participant {code} --resume")
+    };
     match &*outcome.borrow() {
         Outcome::Complete => Ok(()),
-        Outcome::Interrupted => anyhow::bail!("not complete; {}", arguments.how_to_resume()),
-        Outcome::Stopped(problem) => anyhow::bail!("{problem}; {}", arguments.how_to_resume()),
+        Outcome::Interrupted => anyhow::bail!("not complete; {}", how_to_resume()),
+        Outcome::Stopped(problem) => anyhow::bail!("{problem}; {}", how_to_resume()),
+        Outcome::Unsaved { problem, lines } => anyhow::bail!(
+            "{problem}; these lines are missing at the end of {}:\n{}",
+            directory.display(),
+            lines.join("\n")
+        ),
     }
 }
 
-fn window_options(windowed: bool) -> eframe::NativeOptions {
-    let viewport = egui::ViewportBuilder::default()
+/// The session that the command line asks for.
+fn sitting(arguments: &Arguments) -> anyhow::Result<Sitting> {
+    let (study, code) = (arguments.study_folder(), arguments.participant_code());
+    match (find(&study, &code)?, arguments.resume) {
+        (Found::Interrupted(found), Some(ResumePolicy::Discard)) => {
+            sitting::discard(&found.directory)?;
+            fresh(arguments)
+        }
+        (Found::Interrupted(found), Some(policy)) => Sitting::resume(&found.directory, policy),
+        (Found::Interrupted(found), None) => anyhow::bail!(
+            "{} holds a session already, interrupted after {} trials; --resume continues it, \
+             --resume discard begins another",
+            found.directory.display(),
+            found.trials
+        ),
+        (Found::Complete(directory), _) => anyhow::bail!(
+            "{} holds a session already, and it is complete; allowed is another --participant",
+            directory.display()
+        ),
+        (Found::Free(directory), Some(_)) => {
+            anyhow::bail!("{}: no session to continue; without --resume one begins there", directory.display())
+        }
+        (Found::Free(_), None) => fresh(arguments),
+    }
+}
+
+fn fresh(arguments: &Arguments) -> anyhow::Result<Sitting> {
+    let (study, code) = (arguments.study_folder(), arguments.participant_code());
+    let protocol = Protocol::open(arguments.protocol.as_deref().unwrap_or("two-alternative"))?;
+    let header = arguments.header(&code, protocol)?;
+    match find(&study, &code)? {
+        Found::Free(directory) => Sitting::fresh(&directory, header),
+        found => anyhow::bail!("{}: the participant has another session: {found:?}", study.display()),
+    }
+}
+
+fn window_options(arguments: &Arguments) -> eframe::NativeOptions {
+    let mut viewport = egui::ViewportBuilder::default()
         .with_app_id("scumble-study")
         .with_title("Scumble study")
         .with_inner_size([1280.0, 800.0])
-        .with_fullscreen(!windowed);
+        .with_fullscreen(!arguments.windowed);
+    if let Some(number) = arguments.monitor {
+        viewport = viewport.with_monitor(number as usize - 1);
+    }
     eframe::NativeOptions {
         viewport,
         // The stimuli are exact levels; noise on top of them would not be.

@@ -6,6 +6,8 @@
 
 use eframe::egui;
 use egui::{Color32, Mesh, Pos2, Rect, Shape, TextureHandle, TextureOptions, Vec2};
+use image::GrayImage;
+use rayon::prelude::*;
 use scumble_stimuli::{Stimulus, Transfer, picture_sha256};
 
 /// A picture on the GPU.
@@ -16,18 +18,22 @@ pub(crate) struct Picture {
 }
 
 impl Picture {
-    /// Draws a stimulus and uploads it. Levels are those of sRGB, the standard that an unmeasured
-    /// display comes nearest to.
-    pub(crate) fn new(
-        context: &egui::Context,
-        stimulus: &Stimulus,
-        size_px: [u32; 2],
-    ) -> Result<Self, scumble_stimuli::Error> {
-        let picture = stimulus.render(size_px[0], size_px[1], &Transfer::srgb())?;
-        let image = egui::ColorImage::from_gray(size_px.map(|side| side as usize), picture.as_raw());
+    /// Uploads a picture.
+    pub(crate) fn new(context: &egui::Context, picture: &GrayImage) -> Self {
+        let size = [picture.width() as usize, picture.height() as usize];
+        let image = egui::ColorImage::from_gray(size, picture.as_raw());
         let texture = context.load_texture("stimulus", image, TextureOptions::NEAREST);
-        Ok(Self { texture, sha256: picture_sha256(&picture) })
+        Self { texture, sha256: picture_sha256(picture) }
     }
+}
+
+/// Draws stimuli side by side, each on a core of its own.
+pub(crate) fn draw(
+    stimuli: &[&Stimulus],
+    size_px: [u32; 2],
+    transfer: &Transfer,
+) -> Result<Vec<GrayImage>, scumble_stimuli::Error> {
+    stimuli.par_iter().map(|stimulus| stimulus.render(size_px[0], size_px[1], transfer)).collect()
 }
 
 /// Draws a picture with its centre as near to `centre` as whole physical pixels allow, and gives

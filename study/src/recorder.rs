@@ -1,30 +1,29 @@
-//! The session on disk, from the decision where it goes to its last event.
+//! The session on disk, and what waits in memory while the disk takes nothing.
+//!
+//! Every event is kept in memory as well. When the disk refuses one (full, gone, read-only), the recorder
+//! says so and keeps it; [`Recorder::retry`] then makes the folder hold the whole session again, in its
+//! old place.
 
 use std::path::{Path, PathBuf};
 
-use jiff::Timestamp;
-use scumble_psychophysics::{
-    Display, EVENTS_FILE, Error, Event, Experiment, HEADER_FILE, Moment, SessionHeader, SessionWriter,
-};
+use scumble_psychophysics::{EVENTS_FILE, Error, Event, HEADER_FILE, Session, SessionHeader, SessionWriter};
 
 /// A session that is planned or being written.
 pub(crate) struct Recorder {
     directory: PathBuf,
-    state: State,
-    /// Physical pixels per degree of visual angle, which no system knows.
-    px_per_degree: Option<f64>,
-}
-
-enum State {
-    /// Nothing is on disk: the display is not known yet, or nobody has begun.
-    Planned(Box<SessionHeader>),
-    Open(SessionWriter),
-    Complete,
+    header: SessionHeader,
+    /// In order; those from `saved` on wait for the disk.
+    events: Vec<Event>,
+    saved: usize,
+    has_begun: bool,
+    /// `None` before the session begins and after an error.
+    writer: Option<SessionWriter>,
+    problem: Option<String>,
 }
 
 impl Recorder {
     /// A fresh session; refuses a directory that holds one.
-    pub(crate) fn plan(directory: &Path, header: SessionHeader, px_per_degree: Option<f64>) -> anyhow::Result<Self> {
+    pub(crate) fn plan(directory: &Path, header: SessionHeader) -> anyhow::Result<Self> {
         let exists = [HEADER_FILE, EVENTS_FILE].iter().any(|file| directory.join(file).exists());
         anyhow::ensure!(
             !exists,
@@ -37,54 +36,101 @@ impl Recorder {
                 anyhow::anyhow!("{}: cannot be the study's folder: {error}; allowed is a folder", study.display())
             })?;
         }
-        let state = State::Planned(Box::new(header));
-        Ok(Self { directory: directory.into(), state, px_per_degree })
+        Ok(Self::new(directory, header, Vec::new(), None))
     }
 
-    /// An interrupted session, the experiment as it stood, and what the reader noticed.
-    pub(crate) fn reopen(directory: &Path) -> anyhow::Result<(Self, Experiment, Vec<String>)> {
+    /// An interrupted session, and what it holds.
+    pub(crate) fn reopen(directory: &Path) -> anyhow::Result<(Self, Session)> {
         let (writer, session) = SessionWriter::reopen(directory)?;
-        anyhow::ensure!(!session.is_complete(), "{}: the session is complete", directory.display());
-        let experiment = session.replay()?;
-        let state = State::Open(writer);
-        let recorder = Self { directory: directory.into(), state, px_per_degree: None };
-        Ok((recorder, experiment, session.notices))
+        let recorder = Self::new(directory, session.header.clone(), session.events.clone(), Some(writer));
+        Ok((recorder, session))
     }
 
-    /// Writes the header when the participant begins; nothing happens if it is on disk.
-    pub(crate) fn begin(&mut self, display: Option<Display>) -> Result<(), Error> {
-        if let State::Planned(header) = &mut self.state {
-            let px_per_degree = self.px_per_degree;
-            header.display = display.map(|display| Display { px_per_degree, ..display });
-            self.state = State::Open(SessionWriter::create(&self.directory, header)?);
-        }
-        Ok(())
+    fn new(directory: &Path, header: SessionHeader, events: Vec<Event>, writer: Option<SessionWriter>) -> Self {
+        let (saved, has_begun) = (events.len(), writer.is_some());
+        Self { directory: directory.into(), header, events, saved, has_begun, writer, problem: None }
     }
 
-    /// Puts an event on disk. Before the participant has begun there is nothing to put it in, and
-    /// after the end nothing may follow.
-    pub(crate) fn append(&mut self, event: &Event) -> Result<(), Error> {
-        if let State::Open(writer) = &mut self.state {
-            writer.append(event)?;
-            if matches!(event, Event::End(_)) {
-                self.state = State::Complete;
+    /// Writes the header, as it is now, when the participant begins; nothing happens if it is on disk.
+    pub(crate) fn begin(&mut self, complete: impl FnOnce(&mut SessionHeader)) {
+        if !self.has_begun {
+            complete(&mut self.header);
+            self.has_begun = true;
+            match SessionWriter::create(&self.directory, &self.header) {
+                Ok(writer) => self.writer = Some(writer),
+                Err(error) => self.fail(&error),
             }
         }
-        Ok(())
     }
 
-    /// Whether the last event is on disk.
-    pub(crate) fn is_complete(&self) -> bool {
-        matches!(self.state, State::Complete)
+    /// Puts an event on disk, or keeps it until [`Recorder::retry`] succeeds. Before the participant has begun
+    /// there is nothing to put it in, and after the end nothing may follow.
+    pub(crate) fn append(&mut self, event: Event) {
+        if !self.has_begun || self.is_closed() {
+            return;
+        }
+        self.events.push(event);
+        if let Some(writer) = &mut self.writer {
+            match writer.append(&self.events[self.saved]) {
+                Ok(()) => self.saved += 1,
+                Err(error) => self.fail(&error),
+            }
+        }
+    }
+
+    /// Tries again to write what waits.
+    pub(crate) fn retry(&mut self) {
+        if self.problem.is_none() {
+            return;
+        }
+        match SessionWriter::recover(&self.directory, &self.header, &self.events) {
+            Ok(writer) => {
+                self.writer = Some(writer);
+                self.saved = self.events.len();
+                self.problem = None;
+            }
+            Err(error) => self.fail(&error),
+        }
+    }
+
+    /// Why events wait; `None` while everything is on disk.
+    pub(crate) fn problem(&self) -> Option<&str> {
+        self.problem.as_deref()
+    }
+
+    /// Events that are in memory alone.
+    pub(crate) fn unsaved(&self) -> &[Event] {
+        &self.events[self.saved..]
+    }
+
+    /// Every event, on disk or waiting for it.
+    pub(crate) fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// What stands, or will stand, above the events.
+    pub(crate) fn header(&self) -> &SessionHeader {
+        &self.header
+    }
+
+    /// Whether the last event has been given.
+    pub(crate) fn is_closed(&self) -> bool {
+        matches!(self.events.last(), Some(Event::End(_) | Event::Stop(_) | Event::Discard(_)))
+    }
+
+    /// Whether the participant has begun.
+    pub(crate) fn has_begun(&self) -> bool {
+        self.has_begun
     }
 
     /// Where the session lies.
     pub(crate) fn directory(&self) -> &Path {
         &self.directory
     }
-}
 
-/// This moment, with what is worth knowing about it.
-pub(crate) fn moment(notes: Vec<String>) -> Moment {
-    Moment { at: Timestamp::now(), notes }
+    /// The writer is of no use after an error: where its file stands is not known. Dropping it frees the lock.
+    fn fail(&mut self, error: &Error) {
+        self.writer = None;
+        self.problem = Some(error.to_string());
+    }
 }

@@ -3,142 +3,213 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::time::{Duration, Instant};
 
 use eframe::egui;
-use scumble_psychophysics::{Answer, Display, Event, Experiment, Stage};
+use scumble_psychophysics::{Answer, Display, Language, Stage};
 
+use crate::display::display;
 use crate::keys;
-use crate::presentation::Presentation;
-use crate::recorder::{Recorder, moment};
+use crate::presentation::{FIXATION, Presentation, Screen};
+use crate::rehearsal::{Move, Rehearsal, Scene};
 use crate::screen::{self, Action};
+use crate::sitting::Sitting;
+use crate::theme;
+use crate::words::{Words, words};
+
+/// Between two attempts to write what the disk has refused.
+const RETRY: Duration = Duration::from_secs(2);
 
 /// How a session ended, for the exit status.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Outcome {
-    /// Every trial is answered and on disk.
+    /// Every trial is answered, or the administrator ended the session, and all is on disk.
     Complete,
     /// The window was closed before.
+    #[default]
     Interrupted,
-    /// The disk or the experiment refused; in words.
+    /// The experiment or a picture refused to go on; in words.
     Stopped(String),
-}
-
-/// Whether the session is a fresh one.
-pub(crate) enum Start {
-    Fresh,
-    /// Taken up again; what the reader noticed goes into the record.
-    Resumed {
-        notices: Vec<String>,
-    },
-}
-
-/// What lies over the stage.
-enum Overlay {
-    None,
-    /// The pictures are hidden until the participant goes on.
-    Paused {
-        notes: Vec<String>,
-    },
-    Stopped(String),
+    /// The window was closed while the disk refused events: why, and the lines that are not in the record.
+    Unsaved { problem: String, lines: Vec<String> },
 }
 
 /// The running study.
 pub(crate) struct Study {
-    experiment: Experiment,
-    recorder: Recorder,
+    sitting: Sitting,
+    words: &'static Words,
+    rehearsal: Option<Rehearsal>,
+    px_per_degree: Option<f64>,
+    /// What the pictures are shown on, once there is one to show.
+    screen: Option<Screen>,
     presentation: Option<Presentation>,
     examples: screen::Examples,
-    overlay: Overlay,
+    /// Something that the program cannot work around.
+    fatal: Option<String>,
+    retry_at: Instant,
     outcome: Rc<RefCell<Outcome>>,
 }
 
 impl Study {
     /// A session before its first frame. `outcome` is told how it ends.
-    pub(crate) fn new(experiment: Experiment, recorder: Recorder, start: Start, outcome: Rc<RefCell<Outcome>>) -> Self {
-        let overlay = match start {
-            Start::Fresh => Overlay::None,
-            Start::Resumed { notices } => Overlay::Paused { notes: notices },
-        };
-        let examples = screen::Examples::default();
-        Self { experiment, recorder, presentation: None, examples, overlay, outcome }
+    pub(crate) fn new(
+        sitting: Sitting,
+        rehearsal: Option<Rehearsal>,
+        px_per_degree: Option<f64>,
+        outcome: Rc<RefCell<Outcome>>,
+    ) -> Self {
+        let language = sitting.recorder().header().language.unwrap_or(Language::English);
+        Self {
+            sitting,
+            words: words(language),
+            rehearsal,
+            px_per_degree,
+            screen: None,
+            presentation: None,
+            examples: screen::Examples::default(),
+            fatal: None,
+            retry_at: Instant::now(),
+            outcome,
+        }
     }
 
     /// Draws what is to be shown and collects what the participant did.
-    fn show(&mut self, ui: &mut egui::Ui) -> anyhow::Result<Option<Action>> {
-        match &self.overlay {
-            Overlay::Stopped(problem) => {
-                return Ok(screen::stopped(ui, problem, self.recorder.directory()));
-            }
-            Overlay::Paused { .. } => return Ok(screen::paused(ui, self.experiment.progress())),
-            Overlay::None => {}
+    fn show(&mut self, ui: &mut egui::Ui, frame: &eframe::Frame) -> anyhow::Result<Option<Action>> {
+        theme::dress_screen(ui);
+        let words = &self.words.participant;
+        let sitting = &self.sitting;
+        if let Some(problem) = &self.fatal {
+            return Ok(screen::stopped(ui, problem, sitting.recorder().directory(), words));
         }
-        let asked_to_pause = keys::pause(ui.ctx()) && *self.experiment.stage() != Stage::Finished;
-        let action = match *self.experiment.stage() {
-            Stage::Instructions => screen::instructions(ui, &mut self.examples, self.experiment.protocol())?,
+        if let Some(problem) = sitting.recorder().problem() {
+            ui.ctx().request_repaint_after(RETRY);
+            let action = screen::unsaved(ui, problem, words);
+            return Ok(if self.retry_at <= Instant::now() { Some(Action::Retry) } else { action });
+        }
+        let experiment = sitting.experiment();
+        if sitting.is_paused() {
+            return Ok(screen::paused(ui, experiment.progress(), words));
+        }
+        if screen::too_small(ui, experiment.protocol(), words) {
+            return Ok(None);
+        }
+        let asked_to_pause = sitting.is_open() && keys::pause(ui.ctx());
+        let action = match *experiment.stage() {
+            Stage::Instructions => screen::instructions(ui, &mut self.examples, experiment.protocol(), words)?,
             Stage::Practice(trial) | Stage::Trial(trial) => {
+                let fixation = self.rehearsal.as_ref().map_or(FIXATION, |person| person.scaled(FIXATION));
                 let presentation = match self.presentation.take() {
                     Some(presentation) if *presentation.trial() == trial => presentation,
-                    _ => Presentation::new(trial),
+                    _ => Presentation::new(trial, fixation),
                 };
-                let presentation = self.presentation.insert(presentation);
-                screen::trial(ui, presentation, &self.experiment)?
+                let screen = match self.screen.take() {
+                    Some(screen) => screen,
+                    None => screen_of(sitting, frame)?,
+                };
+                let (screen, presentation) = (self.screen.insert(screen), self.presentation.insert(presentation));
+                screen::trial(ui, presentation, experiment, screen, words)?
             }
-            Stage::Feedback { correct, right_answer } => screen::feedback(ui, correct, right_answer),
+            Stage::Feedback { correct, right_answer } => screen::feedback(ui, correct, right_answer, words),
             Stage::Rest { round, rounds, within_round } => {
-                screen::rest(ui, self.experiment.protocol().task, round, rounds, within_round)
+                screen::rest(ui, experiment.protocol().task, [round, rounds], within_round, words)
             }
-            Stage::Finished => screen::finished(ui),
+            Stage::Finished => screen::finished(ui, words),
         };
         Ok(if asked_to_pause { Some(Action::Pause) } else { action })
     }
 
     /// Does what the participant asked for.
     fn act(&mut self, action: Action, ui: &egui::Ui, frame: &eframe::Frame) -> anyhow::Result<()> {
+        let sitting = &mut self.sitting;
         match action {
             Action::Proceed => {
-                self.recorder.begin(display(frame))?;
-                self.experiment.proceed()?;
+                let px_per_degree = self.px_per_degree;
+                sitting.proceed(|| display(frame).map(|display| Display { px_per_degree, ..display }))?;
             }
             Action::Answer(answer) => self.answer(answer)?,
             Action::Pause => {
-                self.recorder.append(&Event::Pause(moment(Vec::new())))?;
                 self.presentation = None;
-                self.overlay = Overlay::Paused { notes: Vec::new() };
+                sitting.pause();
             }
-            Action::Continue => {
-                if let Overlay::Paused { notes } = &mut self.overlay {
-                    self.recorder.append(&Event::Resume(moment(std::mem::take(notes))))?;
-                }
-                self.overlay = Overlay::None;
+            Action::Continue => sitting.go_on()?,
+            Action::Retry => {
+                self.retry_at = Instant::now() + RETRY;
+                sitting.retry();
             }
             Action::Close => ui.send_viewport_cmd(egui::ViewportCommand::Close),
-        }
-        let ends = *self.experiment.stage() == Stage::Finished && !self.recorder.is_complete();
-        if ends && matches!(self.overlay, Overlay::None) {
-            self.recorder.append(&Event::End(moment(Vec::new())))?;
-            *self.outcome.borrow_mut() = Outcome::Complete;
         }
         Ok(())
     }
 
     fn answer(&mut self, answer: Answer) -> anyhow::Result<()> {
-        if let Some(reply) = self.presentation.take().and_then(|shown| shown.reply(answer)) {
-            let event = self.experiment.answer(reply)?;
-            self.recorder.append(&event)?;
+        let shown = self.presentation.take();
+        match shown.and_then(|shown| shown.reply(answer, self.sitting.clock())) {
+            Some(reply) => self.sitting.answer(reply),
+            None => Ok(()),
+        }
+    }
+
+    /// What a simulated person sees.
+    fn scene(&self) -> Scene<'_> {
+        let sitting = &self.sitting;
+        if self.fatal.is_some() || sitting.recorder().problem().is_some() {
+            return Scene::Waiting;
+        }
+        if sitting.is_paused() {
+            return Scene::Page("paused");
+        }
+        match sitting.experiment().stage() {
+            Stage::Practice(_) | Stage::Trial(_) => match &self.presentation {
+                Some(presentation) => match presentation.shown_at() {
+                    Some(shown_at) => Scene::Pictures { trial: presentation.trial(), shown_at },
+                    None => Scene::Waiting,
+                },
+                None => Scene::Waiting,
+            },
+            stage => Scene::Page(stage.name()),
+        }
+    }
+
+    /// Lets the simulated person press a key.
+    fn rehearse(&mut self, context: &egui::Context, raw_input: &mut egui::RawInput) -> anyhow::Result<()> {
+        let Some(mut person) = self.rehearsal.take() else { return Ok(()) };
+        let rules = self.sitting.experiment().protocol().pictures;
+        let next = person.act(self.scene(), &rules, Instant::now());
+        self.rehearsal = Some(person);
+        match next? {
+            Move::Press(key) => {
+                for pressed in [true, false] {
+                    let (physical_key, repeat, modifiers) = (None, false, egui::Modifiers::NONE);
+                    raw_input.events.push(egui::Event::Key { key, physical_key, pressed, repeat, modifiers });
+                }
+            }
+            Move::Wait(wait) => context.request_repaint_after_for(wait, egui::ViewportId::ROOT),
+            Move::Nothing => {}
         }
         Ok(())
     }
 
     fn stop(&mut self, error: &anyhow::Error) {
-        let problem = format!("{error:#}");
-        *self.outcome.borrow_mut() = Outcome::Stopped(problem.clone());
-        self.overlay = Overlay::Stopped(problem);
+        self.fatal = Some(format!("{error:#}"));
+    }
+
+    fn outcome(&self) -> Outcome {
+        let recorder = self.sitting.recorder();
+        if let Some(problem) = recorder.problem() {
+            let line = |event| serde_json::to_string(event).unwrap_or_else(|error| error.to_string());
+            return Outcome::Unsaved { problem: problem.into(), lines: recorder.unsaved().iter().map(line).collect() };
+        }
+        match &self.fatal {
+            Some(problem) => Outcome::Stopped(problem.clone()),
+            None if recorder.is_closed() => Outcome::Complete,
+            None => Outcome::Interrupted,
+        }
     }
 }
 
 impl eframe::App for Study {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
-        let acted = match self.show(ui) {
+        let acted = match self.show(ui, frame) {
             Ok(None) => return,
             Ok(Some(action)) => self.act(action, ui, frame),
             Err(error) => Err(error),
@@ -149,25 +220,24 @@ impl eframe::App for Study {
         ui.request_repaint();
     }
 
-    fn on_exit(&mut self) {
-        if matches!(self.overlay, Overlay::None)
-            && let Err(error) = self.recorder.append(&Event::Pause(moment(Vec::new())))
+    fn raw_input_hook(&mut self, context: &egui::Context, raw_input: &mut egui::RawInput) {
+        if raw_input.viewport_id == egui::ViewportId::ROOT
+            && let Err(error) = self.rehearse(context, raw_input)
         {
-            self.stop(&error.into());
+            self.stop(&error);
         }
+    }
+
+    fn on_exit(&mut self) {
+        self.sitting.leave();
+        *self.outcome.borrow_mut() = self.outcome();
     }
 }
 
-/// The display that the window is on, as far as the system tells.
-fn display(frame: &eframe::Frame) -> Option<Display> {
-    let window = frame.winit_window()?;
-    let monitor = window.current_monitor()?;
-    Some(Display {
-        monitor: monitor.name(),
-        width_px: monitor.size().width,
-        height_px: monitor.size().height,
-        scale_factor: window.scale_factor(),
-        px_per_degree: None,
-        luminance: None,
-    })
+/// What the pictures of a session are shown on.
+fn screen_of(sitting: &Sitting, frame: &eframe::Frame) -> anyhow::Result<Screen> {
+    let header = sitting.recorder().header();
+    let rules = header.protocol.pictures;
+    let refresh_hz = display(frame).and_then(|display| display.refresh_hz);
+    Ok(Screen { size_px: [rules.width_px, rules.height_px], transfer: header.transfer()?, refresh_hz })
 }

@@ -1,7 +1,10 @@
-//! The look: one neutral grey, dark type, nothing that competes with the pictures.
+//! The look of the participant's screen: one neutral grey, dark type, nothing that competes with the pictures.
+//!
+//! Pictures are texel for pixel, type is not: it grows with the screen, so that it reads on a display of
+//! 3840 x 2160 whose system leaves the scale factor at 1.
 
 use eframe::egui;
-use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, TextStyle, Vec2, Visuals};
+use egui::{Color32, CornerRadius, FontFamily, FontId, Rect, Stroke, Style, TextStyle, Ui, Vec2, Visuals};
 
 /// Ground of every screen: half of the signal, so about a fifth of white's light, between the light
 /// of both sides of every edge.
@@ -17,20 +20,38 @@ const PRESSED: Color32 = Color32::from_gray(112);
 /// Empty part of the progress bar.
 pub(crate) const TRACK: Color32 = Color32::from_gray(112);
 
-/// Sets type and colours for the whole program.
+/// Height, in points, of the screen that the sizes below are made for.
+const HEIGHT: f32 = 800.0;
+
+/// Sets what no single viewport has for itself.
 pub(crate) fn apply(context: &egui::Context) {
     // A participant must not change the scale by a slip of the fingers.
     context.options_mut(|options| options.zoom_with_keyboard = false);
     context.set_theme(egui::Theme::Light);
-    context.all_styles_mut(|style| {
-        let sizes =
-            [(TextStyle::Heading, 32.0), (TextStyle::Body, 19.0), (TextStyle::Button, 19.0), (TextStyle::Small, 15.0)];
-        style.text_styles.extend(sizes.map(|(name, size)| (name, FontId::new(size, FontFamily::Proportional))));
-        style.spacing.button_padding = Vec2::new(22.0, 11.0);
-        style.spacing.item_spacing = Vec2::new(12.0, 14.0);
-        style.interaction.selectable_labels = false;
-        style.visuals = visuals();
-    });
+    context.all_styles_mut(|style| dress(style, 1.0));
+}
+
+/// Sets type and colours for what is drawn into `ui`, and gives the factor by which they grew.
+pub(crate) fn dress_screen(ui: &mut Ui) -> f32 {
+    let scale = scale(ui.max_rect());
+    dress(ui.style_mut(), scale);
+    scale
+}
+
+/// How much larger than life everything but the pictures is, in steps of a half.
+pub(crate) fn scale(screen: Rect) -> f32 {
+    ((screen.height() / HEIGHT * 2.0).floor() / 2.0).clamp(1.0, 4.0)
+}
+
+fn dress(style: &mut Style, scale: f32) {
+    let sizes =
+        [(TextStyle::Heading, 32.0), (TextStyle::Body, 19.0), (TextStyle::Button, 19.0), (TextStyle::Small, 15.0)];
+    let font = |size: f32| FontId::new(size * scale, FontFamily::Proportional);
+    style.text_styles.extend(sizes.map(|(name, size)| (name, font(size))));
+    style.spacing.button_padding = Vec2::new(22.0, 11.0) * scale;
+    style.spacing.item_spacing = Vec2::new(12.0, 14.0) * scale;
+    style.interaction.selectable_labels = false;
+    style.visuals = visuals();
 }
 
 fn visuals() -> Visuals {

@@ -21,8 +21,18 @@ pub enum Event {
     Pause(Moment),
     /// The session was taken up again.
     Resume(Moment),
+    /// What the administrator noted.
+    Note(Moment),
+    /// Practice begins anew.
+    RepeatPractice(Moment),
+    /// The round under way begins anew; the answers it has do not stand.
+    RepeatRound(Moment),
     /// The session is complete; nothing follows.
     End(Moment),
+    /// The administrator ended the session early; nothing follows.
+    Stop(Moment),
+    /// The session is not to be used; nothing follows.
+    Discard(Moment),
 }
 
 /// A trial and its answer.
@@ -40,6 +50,20 @@ pub struct Answered {
     /// SHA-256 of the pictures from left to right, as drawn; empty where none was drawn.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pictures_sha256: Vec<String>,
+    /// When the pictures were shown; `None` where that is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub timing: Option<Timing>,
+}
+
+/// When the pictures of a trial were shown.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Timing {
+    /// Seconds from the session's start to the first frame of the pictures; never decreases within a session,
+    /// whatever happens to the computer's clock.
+    pub onset_secs: f64,
+    /// Refreshes of the display by which the pictures came later than they were due.
+    pub missed_frames: u32,
 }
 
 /// What comes from outside into a trial.
@@ -51,6 +75,8 @@ pub struct Reply {
     pub response_time_secs: f64,
     /// SHA-256 of the pictures from left to right, as drawn; empty where none was drawn.
     pub pictures_sha256: Vec<String>,
+    /// When the pictures were shown; `None` where that is not known.
+    pub timing: Option<Timing>,
 }
 
 /// A point in time.
@@ -62,6 +88,9 @@ pub struct Moment {
     /// What else is worth knowing, such as a line that was cut off; may be empty.
     #[serde(default)]
     pub notes: Vec<String>,
+    /// How long the session had been interrupted, where it is taken up again.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interrupted_secs: Option<f64>,
 }
 
 impl Event {
@@ -80,6 +109,26 @@ impl Event {
             Self::Trial(answered) | Self::Catch(answered) | Self::Practice(answered) => Some(answered),
             _ => None,
         }
+    }
+
+    /// The point in time that it holds, if any.
+    pub fn moment(&self) -> Option<&Moment> {
+        match self {
+            Self::Trial(_) | Self::Catch(_) | Self::Practice(_) => None,
+            Self::Pause(moment)
+            | Self::Resume(moment)
+            | Self::Note(moment)
+            | Self::RepeatPractice(moment)
+            | Self::RepeatRound(moment)
+            | Self::End(moment)
+            | Self::Stop(moment)
+            | Self::Discard(moment) => Some(moment),
+        }
+    }
+
+    /// Whether nothing may follow.
+    pub fn is_last(&self) -> bool {
+        matches!(self, Self::End(_) | Self::Stop(_) | Self::Discard(_))
     }
 
     /// The answer that a staircase learned from, else `None`.
@@ -103,11 +152,20 @@ impl Answered {
         require(self.correct == is_right, "correct", self.correct, allowed)?;
         let secs = self.response_time_secs;
         require(is_response_time(secs), "response_time_secs", secs, RESPONSE_TIME_ALLOWED)?;
+        if let Some(timing) = self.timing {
+            timing.check()?;
+        }
         let hashes = &self.pictures_sha256;
-        let is_hash = |hash: &String| hash.len() == 64 && hash.bytes().all(|b| b.is_ascii_hexdigit());
         let fits = hashes.is_empty() || hashes.len() == self.trial.pictures.all().len();
         let allowed = "one SHA-256 of 64 hexadecimal digits for each picture, or no such key";
-        require(fits && hashes.iter().all(is_hash), "pictures_sha256", format!("{hashes:?}"), allowed)
+        require(fits && hashes.iter().all(|hash| is_sha256(hash)), "pictures_sha256", format!("{hashes:?}"), allowed)
+    }
+}
+
+impl Timing {
+    /// Refuses an onset that is no time; the error names the key.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        require(is_response_time(self.onset_secs), "timing.onset_secs", self.onset_secs, RESPONSE_TIME_ALLOWED)
     }
 }
 
@@ -117,4 +175,9 @@ pub(crate) const RESPONSE_TIME_ALLOWED: &str = "a finite number of seconds, at l
 /// Whether a number can be a response time: finite and at least 0.
 pub(crate) fn is_response_time(secs: f64) -> bool {
     secs.is_finite() && secs >= 0.0
+}
+
+/// Whether a text is a SHA-256 as it is written here.
+pub(crate) fn is_sha256(text: &str) -> bool {
+    text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_hexdigit())
 }

@@ -4,7 +4,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Deserializer};
 
-use crate::event::{Answered, Event, Moment};
+use crate::event::{Answered, Event, Moment, RESPONSE_TIME_ALLOWED, Timing, is_response_time};
 use crate::trial::{Answer, Trial};
 
 /// The keys of a line. A key that is there has a value: `null` is none.
@@ -23,9 +23,13 @@ pub(crate) struct EventLine {
     #[serde(default, deserialize_with = "given")]
     pictures_sha256: Option<Vec<String>>,
     #[serde(default, deserialize_with = "given")]
+    timing: Option<Timing>,
+    #[serde(default, deserialize_with = "given")]
     at: Option<Timestamp>,
     #[serde(default, deserialize_with = "given")]
     notes: Option<Vec<String>>,
+    #[serde(default, deserialize_with = "given")]
+    interrupted_secs: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -36,7 +40,12 @@ enum Kind {
     Practice,
     Pause,
     Resume,
+    Note,
+    RepeatPractice,
+    RepeatRound,
     End,
+    Stop,
+    Discard,
 }
 
 fn given<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
@@ -53,20 +62,31 @@ impl TryFrom<EventLine> for Event {
             Kind::Practice => Self::Practice(line.answered()?),
             Kind::Pause => Self::Pause(line.moment()?),
             Kind::Resume => Self::Resume(line.moment()?),
+            Kind::Note => Self::Note(line.moment()?),
+            Kind::RepeatPractice => Self::RepeatPractice(line.moment()?),
+            Kind::RepeatRound => Self::RepeatRound(line.moment()?),
             Kind::End => Self::End(line.moment()?),
+            Kind::Stop => Self::Stop(line.moment()?),
+            Kind::Discard => Self::Discard(line.moment()?),
         })
     }
 }
 
 impl EventLine {
     fn answered(self) -> Result<Answered, String> {
-        refuse([("at", self.at.is_some()), ("notes", self.notes.is_some())], "trial, catch and practice")?;
+        let foreign = [
+            ("at", self.at.is_some()),
+            ("notes", self.notes.is_some()),
+            ("interrupted_secs", self.interrupted_secs.is_some()),
+        ];
+        refuse(foreign, "trial, catch and practice")?;
         Ok(Answered {
             trial: needed("trial", self.trial)?,
             answer: needed("answer", self.answer)?,
             correct: needed("correct", self.correct)?,
             response_time_secs: needed("response_time_secs", self.response_time_secs)?,
             pictures_sha256: self.pictures_sha256.unwrap_or_default(),
+            timing: self.timing,
         })
     }
 
@@ -77,9 +97,14 @@ impl EventLine {
             ("correct", self.correct.is_some()),
             ("response_time_secs", self.response_time_secs.is_some()),
             ("pictures_sha256", self.pictures_sha256.is_some()),
+            ("timing", self.timing.is_some()),
         ];
-        refuse(foreign, "pause, resume and end")?;
-        Ok(Moment { at: needed("at", self.at)?, notes: self.notes.unwrap_or_default() })
+        refuse(foreign, "other than trial, catch and practice")?;
+        let interrupted_secs = self.interrupted_secs;
+        if let Some(secs) = interrupted_secs.filter(|secs| !is_response_time(*secs)) {
+            return Err(format!("interrupted_secs {secs}, expected {RESPONSE_TIME_ALLOWED}"));
+        }
+        Ok(Moment { at: needed("at", self.at)?, notes: self.notes.unwrap_or_default(), interrupted_secs })
     }
 }
 

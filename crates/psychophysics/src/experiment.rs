@@ -92,8 +92,14 @@ pub struct Experiment {
     timetable: Timetable,
     stage: Stage,
     practised: u32,
+    /// Practice trials that were answered when practice began, for the last time.
+    practised_before: u32,
     /// Trials answered after practice, whatever their role.
     answered: u32,
+    /// Those of them that do not stand, since their round was repeated.
+    replaced: u32,
+    /// Trials answered since the round under way began, for the last time.
+    answered_of_round: u32,
     /// Trials answered since the last rest.
     since_rest: u32,
 }
@@ -104,7 +110,18 @@ impl Experiment {
         protocol.check()?;
         let timetable = Timetable::new(&protocol, seed, participant_number)?;
         let stage = Stage::Instructions;
-        Ok(Self { protocol, seed, timetable, stage, practised: 0, answered: 0, since_rest: 0 })
+        Ok(Self {
+            protocol,
+            seed,
+            timetable,
+            stage,
+            practised: 0,
+            practised_before: 0,
+            answered: 0,
+            replaced: 0,
+            answered_of_round: 0,
+            since_rest: 0,
+        })
     }
 
     /// What is to be shown.
@@ -133,23 +150,68 @@ impl Experiment {
         let Some(trial) = self.stage.trial().copied() else {
             return Err(self.refuse("answer", "practice and trial"));
         };
-        let Reply { answer, response_time_secs, pictures_sha256 } = reply;
+        let Reply { answer, response_time_secs, pictures_sha256, timing } = reply;
         require(is_response_time(response_time_secs), "response_time_secs", response_time_secs, RESPONSE_TIME_ALLOWED)?;
         let of_question = trial.pictures.answers().contains(&answer);
         let allowed = "left and right for two pictures, yes and no for one";
         require(of_question, "answer", answer.name(), allowed)?;
         let correct = trial.is_correct(answer);
-        let answered = Answered { trial, answer, correct, response_time_secs, pictures_sha256 };
+        if let Some(timing) = timing {
+            timing.check()?;
+        }
+        let answered = Answered { trial, answer, correct, response_time_secs, pictures_sha256, timing };
         if trial.role == Role::Practice {
             self.practised += 1;
             self.stage = Stage::Feedback { correct, right_answer: trial.pictures.right_answer() };
         } else {
             self.learn(&trial, correct)?;
             self.answered += 1;
+            self.answered_of_round += 1;
             self.since_rest += 1;
             self.stage = self.after_answer();
         }
         Ok(Event::of(answered))
+    }
+
+    /// Begins practice anew, with other pictures; the round under way goes on, or begins, after it.
+    ///
+    /// Errors, which leave the session as it was: a stage other than instructions, practice, feedback and rest.
+    pub fn repeat_practice(&mut self) -> Result<(), Error> {
+        match self.stage {
+            Stage::Instructions | Stage::Practice(_) | Stage::Feedback { .. } | Stage::Rest { .. } => {
+                self.practised_before = self.practised;
+                self.stage = self.next_practice();
+                Ok(())
+            }
+            _ => Err(self.refuse("repeat_practice", "instructions, practice, feedback and rest")),
+        }
+    }
+
+    /// Begins the round under way anew, with other pictures and staircases at their priors; the answers that it
+    /// has do not stand.
+    ///
+    /// Errors, which leave the session as it was: a round without an answer, and a stage other than trial and rest.
+    pub fn repeat_round(&mut self) -> Result<(), Error> {
+        let is_under_way = matches!(self.stage, Stage::Trial(_) | Stage::Rest { .. }) && self.answered_of_round > 0;
+        if !is_under_way {
+            return Err(self.refuse("repeat_round", "trial and rest, after the round's first answer"));
+        }
+        self.timetable.restart_round(&self.protocol)?;
+        self.replaced += self.answered_of_round;
+        self.answered_of_round = 0;
+        self.stage = self.rest();
+        Ok(())
+    }
+
+    /// Ends the session early. Errors: the stage finished.
+    pub fn stop(&mut self) -> Result<(), Error> {
+        match self.stage {
+            Stage::Finished => Err(self.refuse("stop", "every other stage")),
+            _ => {
+                self.stage = Stage::Finished;
+                Ok(())
+            }
+        }
     }
 
     /// Number of measured trials and rounds.
@@ -163,7 +225,7 @@ impl Experiment {
             self.tracks().iter().map(of_track).sum()
         };
         Progress {
-            answered: self.answered,
+            answered: self.answered - self.replaced,
             trials: self.tracks().iter().map(Track::trials).sum(),
             trials_at_least: total(|trials, protocol| protocol.schedule.trials_min.max(trials + 1)),
             trials_at_most: total(|_, protocol| protocol.schedule.trials_max),
@@ -197,12 +259,13 @@ impl Experiment {
 
     fn next_practice(&self) -> Stage {
         let practice = &self.protocol.practice;
-        let Some(ratio) = practice.ratios.get(self.practised as usize) else {
-            return self.rest(false);
+        let index = (self.practised - self.practised_before) as usize;
+        let Some(ratio) = practice.ratios.get(index) else {
+            return self.rest();
         };
         let conditions = &self.protocol.conditions;
         let condition = Condition {
-            pattern: conditions.patterns[self.practised as usize % conditions.patterns.len()],
+            pattern: conditions.patterns[index % conditions.patterns.len()],
             contrast: practice.contrast,
             kernel: conditions.kernels[0],
             texel_px: practice.texel_px,
@@ -212,15 +275,13 @@ impl Experiment {
 
     fn after_answer(&mut self) -> Stage {
         let is_rest = self.protocol.schedule.rest_every_trials == Some(self.since_rest);
-        if is_rest && self.timetable.round_is_open() { self.rest(true) } else { self.next_trial() }
+        if is_rest && self.timetable.round_is_open() { self.rest() } else { self.next_trial() }
     }
 
     fn next_trial(&mut self) -> Stage {
         let Some((role, index)) = self.timetable.next(self.answered + 1) else {
-            return match self.timetable.next_round() {
-                true => self.rest(false),
-                false => Stage::Finished,
-            };
+            self.answered_of_round = 0;
+            return if self.timetable.next_round() { self.rest() } else { Stage::Finished };
         };
         let track = &self.tracks()[index];
         let asked = *track.condition();
@@ -233,9 +294,9 @@ impl Experiment {
         Stage::Trial(self.draw(role, track, condition, radius_px))
     }
 
-    fn rest(&self, within_round: bool) -> Stage {
+    fn rest(&self) -> Stage {
         let (round, rounds) = (self.timetable.round_number(), self.timetable.rounds() as u32);
-        Stage::Rest { round, rounds, within_round }
+        Stage::Rest { round, rounds, within_round: self.answered_of_round > 0 }
     }
 
     fn draw(&self, role: Role, track: Option<u32>, condition: Condition, placement_radius_px: f64) -> Trial {

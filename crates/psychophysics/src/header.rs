@@ -1,14 +1,22 @@
 //! `session.json`: who, with what protocol, on what display, from which seed.
 
 use jiff::Timestamp;
+use scumble_stimuli::Transfer;
 use serde::{Deserialize, Serialize};
 
+use crate::demographics::Demographics;
+use crate::display::Display;
 use crate::error::{Error, require};
+use crate::event::is_sha256;
+use crate::language::Language;
 use crate::observer::ObserverModel;
 use crate::protocol::Protocol;
 
 /// The format of a session directory.
-pub const SESSION_SCHEMA: &str = "scumble/session/2";
+pub const SESSION_SCHEMA: &str = "scumble/session/3";
+
+/// Formats that are read: each key that the present one added may be missing.
+pub(crate) const READABLE_SCHEMAS: [&str; 2] = ["scumble/session/2", SESSION_SCHEMA];
 
 /// Longest participant code, short enough that no name with address hides in it.
 const CODE_LENGTH_MAX: usize = 16;
@@ -17,7 +25,7 @@ const CODE_LENGTH_MAX: usize = 16;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SessionHeader {
-    /// [`SESSION_SCHEMA`].
+    /// [`SESSION_SCHEMA`], or the one before it.
     pub schema: String,
     /// A code, never a name: 1 to 16 letters, digits, `-` and `_`.
     pub participant: String,
@@ -35,38 +43,30 @@ pub struct SessionHeader {
     /// The simulated person who answered; `None` for a human.
     #[serde(deserialize_with = "Option::deserialize")]
     pub simulated_observer: Option<ObserverModel>,
+    /// Language of the participant's screen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub language: Option<Language>,
+    /// What the participant agreed to; `None` where nothing was asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub consent: Option<Consent>,
+    /// What the participant told; `None` where nothing was asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub demographics: Option<Demographics>,
+    /// The room's light, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub room: Option<String>,
     /// Programs that made the session.
     pub software: Software,
 }
 
-/// The display, as far as it is known.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// A person's consent to take part.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Display {
-    /// Name of the monitor.
-    pub monitor: Option<String>,
-    /// Width in physical pixels.
-    pub width_px: u32,
-    /// Height in physical pixels.
-    pub height_px: u32,
-    /// Physical pixels per logical point.
-    pub scale_factor: f64,
-    /// Physical pixels per degree of visual angle at the participant's distance.
-    pub px_per_degree: Option<f64>,
-    /// Measured light; `None` where nobody measured.
-    pub luminance: Option<Luminance>,
-}
-
-/// A display's light, measured with a photometer.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Luminance {
-    /// Of level 0.
-    pub black_cd_m2: f64,
-    /// Of level 255.
-    pub white_cd_m2: f64,
-    /// Exponent of the display's tone curve.
-    pub gamma: f64,
+pub struct Consent {
+    /// SHA-256 of the text that was shown, byte for byte.
+    pub text_sha256: String,
+    /// When the person agreed.
+    pub agreed_at: Timestamp,
 }
 
 /// Versions of what made a session.
@@ -105,6 +105,10 @@ impl SessionHeader {
             protocol,
             display: None,
             simulated_observer: None,
+            language: None,
+            consent: None,
+            demographics: None,
+            room: None,
             software,
         }
     }
@@ -112,7 +116,8 @@ impl SessionHeader {
     /// Refuses a foreign schema, a participant code that could be a name with more than a word, and
     /// parameters outside their ranges; the error names the field.
     pub fn check(&self) -> Result<(), Error> {
-        require(self.schema == SESSION_SCHEMA, "schema", &self.schema, SESSION_SCHEMA)?;
+        let is_readable = READABLE_SCHEMAS.contains(&self.schema.as_str());
+        require(is_readable, "schema", &self.schema, "scumble/session/3 and scumble/session/2")?;
         let is_code_letter = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         require(
             (1..=CODE_LENGTH_MAX).contains(&self.participant.len()) && self.participant.chars().all(is_code_letter),
@@ -126,7 +131,24 @@ impl SessionHeader {
         if let Some(observer) = &self.simulated_observer {
             observer.check()?;
         }
+        if let Some(consent) = &self.consent {
+            require(
+                is_sha256(&consent.text_sha256),
+                "consent.text_sha256",
+                &consent.text_sha256,
+                "64 hexadecimal digits",
+            )?;
+        }
+        if let Some(demographics) = &self.demographics {
+            demographics.check()?;
+        }
         self.protocol.check()
+    }
+
+    /// The light of the levels that the pictures are drawn for: the measured one, else that of sRGB, the standard
+    /// that an unmeasured display comes nearest to.
+    pub fn transfer(&self) -> Result<Transfer, Error> {
+        self.display.as_ref().map_or_else(|| Ok(Transfer::srgb()), Display::transfer)
     }
 }
 
@@ -134,27 +156,4 @@ impl SessionHeader {
 fn number_at_end(code: &str) -> u32 {
     let letters = code.trim_end_matches(|c: char| c.is_ascii_digit());
     code[letters.len()..].parse().unwrap_or(0)
-}
-
-impl Display {
-    fn check(&self) -> Result<(), Error> {
-        let positive =
-            |field, value: f64| require(value.is_finite() && value > 0.0, field, value, "a finite number above 0");
-        positive("display.width_px", self.width_px.into())?;
-        positive("display.height_px", self.height_px.into())?;
-        positive("display.scale_factor", self.scale_factor)?;
-        self.px_per_degree.map_or(Ok(()), |value| positive("display.px_per_degree", value))?;
-        let Some(luminance) = self.luminance else {
-            return Ok(());
-        };
-        positive("display.luminance.gamma", luminance.gamma)?;
-        require(
-            luminance.white_cd_m2.is_finite()
-                && luminance.black_cd_m2 >= 0.0
-                && luminance.black_cd_m2 < luminance.white_cd_m2,
-            "display.luminance",
-            format!("{} to {} cd/m2", luminance.black_cd_m2, luminance.white_cd_m2),
-            "0 or more for black and a larger finite number for white",
-        )
-    }
 }

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::complaint::{Complaint, quoted};
 use crate::error::Error;
-use crate::header::{SESSION_SCHEMA, SessionHeader};
+use crate::header::{READABLE_SCHEMAS, SESSION_SCHEMA, SessionHeader};
 use crate::read::parse_json;
 use crate::text::Text;
 
@@ -22,7 +22,9 @@ impl SessionHeader {
         let file = Text::new(path, bytes)?.refuse_conversions()?;
         // The version comes first: the keys of another one are not wrong, they are another version's.
         let version = parse_json::<Version>(file.text, "");
-        if let Some(schema) = version.ok().map(|version| version.schema).filter(|schema| schema != SESSION_SCHEMA) {
+        if let Some(schema) =
+            version.ok().map(|version| version.schema).filter(|schema| !READABLE_SCHEMAS.contains(&schema.as_str()))
+        {
             let allowed =
                 format!("{SESSION_SCHEMA}; another version of the program recorded this session, and reads it");
             let found = format!("schema is {}", quoted(&schema));

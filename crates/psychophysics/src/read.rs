@@ -5,9 +5,11 @@
 
 use std::path::{Path, PathBuf};
 
+use jiff::{SignedDuration, Timestamp};
+
 use crate::complaint::{Complaint, quoted};
 use crate::error::Error;
-use crate::event::{Answered, Event};
+use crate::event::{Answered, Event, Timing};
 use crate::experiment::Experiment;
 use crate::header::SessionHeader;
 use crate::record::{EVENTS_FILE, HEADER_FILE};
@@ -49,7 +51,7 @@ impl Session {
         let (lines, tail) = events.split_at(whole);
         let lines = Text::new(&path, lines)?.refuse_conversions()?.text;
 
-        let mut reader = LineReader { path: &path, events: Vec::new(), practised: 0, answered: 0 };
+        let mut reader = LineReader { path: &path, events: Vec::new(), practised: 0, answered: 0, onset_secs: 0.0 };
         lines.lines().try_for_each(|line| reader.read(line))?;
         let mut notices = Vec::new();
         if !tail.is_empty() {
@@ -83,10 +85,52 @@ impl Session {
         matches!(self.events.last(), Some(Event::End(_)))
     }
 
+    /// Whether nothing may follow: the session is complete, was ended early, or was discarded.
+    pub fn is_closed(&self) -> bool {
+        self.events.last().is_some_and(Event::is_last)
+    }
+
+    /// Whether its answers are not to be used.
+    pub fn is_discarded(&self) -> bool {
+        matches!(self.events.last(), Some(Event::Discard(_)))
+    }
+
+    /// The answers that stand, in order: those of practice, and those whose round was not repeated after them.
+    pub fn standing(&self) -> Vec<&Answered> {
+        standing(&self.events)
+    }
+
+    /// The latest moment that the record tells.
+    pub fn last_known_at(&self) -> Timestamp {
+        let started_at = self.header.started_at;
+        let at = |event: &Event| match event.moment() {
+            Some(moment) => Some(moment.at),
+            None => event.answered().and_then(|answered| {
+                let secs = answered.timing?.onset_secs + answered.response_time_secs;
+                started_at.checked_add(SignedDuration::try_from_secs_f64(secs).ok()?).ok()
+            }),
+        };
+        self.events.iter().filter_map(at).fold(started_at, Timestamp::max)
+    }
+
     /// Length of the events' file up to its last line break.
     pub(crate) fn whole_lines_bytes(&self) -> u64 {
         self.whole_lines_bytes
     }
+}
+
+/// The answers of a record that stand, in order: those of practice, and those whose round was not repeated
+/// after them.
+pub fn standing(events: &[Event]) -> Vec<&Answered> {
+    let mut standing: Vec<&Answered> = Vec::new();
+    for event in events {
+        if let Event::RepeatRound(_) = event {
+            let round = standing.iter().map(|answered| answered.trial.round).max();
+            standing.retain(|answered| answered.trial.round == 0 || Some(answered.trial.round) != round);
+        }
+        standing.extend(event.answered());
+    }
+    standing
 }
 
 /// Reads lines in order and remembers what the next trial's number must be.
@@ -95,12 +139,13 @@ struct LineReader<'a> {
     events: Vec<Event>,
     practised: u32,
     answered: u32,
+    onset_secs: f64,
 }
 
 impl LineReader<'_> {
     fn read(&mut self, line: &str) -> Result<(), Error> {
         let event = parse_event(line).map_err(|Complaint { found, allowed }| self.damaged(found, allowed))?;
-        if let Some(Event::End(_)) = self.events.last() {
+        if self.events.last().is_some_and(Event::is_last) {
             return Err(self.damaged("an event after the end", "nothing"));
         }
         if let Some(answered) = event.answered() {
@@ -109,6 +154,13 @@ impl LineReader<'_> {
                 Error::Parameter { field, value, allowed } => self.damaged(format!("{field} is {value}"), allowed),
                 other => other,
             })?;
+            if let Some(Timing { onset_secs, .. }) = answered.timing {
+                if onset_secs < self.onset_secs {
+                    let allowed = format!("{} and more, the onset before it", self.onset_secs);
+                    return Err(self.damaged(format!("timing.onset_secs is {onset_secs}"), allowed));
+                }
+                self.onset_secs = onset_secs;
+            }
         }
         self.events.push(event);
         Ok(())

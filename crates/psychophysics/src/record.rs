@@ -5,7 +5,7 @@
 //! directory that holds a session. One program writes a session at a time (a lock on the file).
 
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
@@ -41,8 +41,7 @@ impl SessionWriter {
         }
 
         let mut header_file = create_new(directory, &header_path)?;
-        let mut json = serde_json::to_vec_pretty(header).map_err(|error| Error::io(&header_path)(error.into()))?;
-        json.push(b'\n');
+        let json = json_of(&header_path, header)?;
         header_file.write_all(&json).and_then(|()| header_file.sync_all()).map_err(Error::io(&header_path))?;
 
         let file = create_new(directory, &path)?;
@@ -70,19 +69,54 @@ impl SessionWriter {
         Ok((writer, session))
     }
 
-    /// Writes one event and waits until the disk has it. After an error the file ends with the
-    /// last whole event, as far as the system allows.
+    /// Makes the disk hold the whole of a session again after [`SessionWriter::append`] or
+    /// [`SessionWriter::create`] has failed, and goes on with it.
+    ///
+    /// Where the session's files are, they must be its beginning: a tail that was cut off is dropped, and what is
+    /// missing is written behind it. Where they are gone, or not whole enough to hold an event, they are made anew.
+    ///
+    /// Errors: files that are not this session's beginning, which stay as they are; the system's.
+    pub fn recover(directory: &Path, header: &SessionHeader, events: &[Event]) -> Result<Self, Error> {
+        let (header_path, path) = (directory.join(HEADER_FILE), directory.join(EVENTS_FILE));
+        if is_empty_or_gone(&path) && holds_part_of(&header_path, &json_of(&header_path, header)?)? {
+            for path in [&path, &header_path].into_iter().filter(|path| path.exists()) {
+                std::fs::remove_file(path).map_err(Error::io(path))?;
+            }
+            let mut writer = Self::create(directory, header)?;
+            events.iter().try_for_each(|event| writer.append(event))?;
+            return Ok(writer);
+        }
+        let (mut writer, found) = Self::reopen(directory)?;
+        let is_beginning = found.header == *header && events.starts_with(&found.events);
+        if !is_beginning {
+            return Err(Error::SessionExists(directory.into()));
+        }
+        events[found.events.len()..].iter().try_for_each(|event| writer.append(event))?;
+        Ok(writer)
+    }
+
+    /// Writes one event and waits until the disk has it under the session's name. After an error the event is not
+    /// in the record, as far as the system allows.
     pub fn append(&mut self, event: &Event) -> Result<(), Error> {
         let mut line = serde_json::to_vec(event).map_err(|error| Error::io(&self.path)(error.into()))?;
         line.push(b'\n');
+        let length_bytes = self.length_bytes + line.len() as u64;
         let written = self.file.write_all(&line).and_then(|()| self.file.sync_data());
-        if let Err(error) = written {
+        if let Err(error) = written.and_then(|()| self.find_under_its_name(length_bytes)) {
             // The write's own error is the one to report; a tail that stays is dropped by a reader.
             let _ = self.drop_tail();
             return Err(Error::io(&self.path)(error));
         }
-        self.length_bytes += line.len() as u64;
+        self.length_bytes = length_bytes;
         Ok(())
+    }
+
+    /// A file that is written goes on to exist when its name is gone or another file's; then nobody finds it.
+    fn find_under_its_name(&self, length_bytes: u64) -> std::io::Result<()> {
+        match std::fs::metadata(&self.path)?.len() == length_bytes {
+            true => Ok(()),
+            false => Err(std::io::Error::other("another file has taken the place of the session's")),
+        }
     }
 
     fn lock(directory: &Path, path: PathBuf, file: File) -> Result<Self, Error> {
@@ -101,9 +135,29 @@ impl SessionWriter {
     }
 }
 
+/// The bytes of the header's file.
+fn json_of(path: &Path, header: &SessionHeader) -> Result<Vec<u8>, Error> {
+    let mut json = serde_json::to_vec_pretty(header).map_err(|error| Error::io(path)(error.into()))?;
+    json.push(b'\n');
+    Ok(json)
+}
+
+fn is_empty_or_gone(path: &Path) -> bool {
+    std::fs::metadata(path).map_or_else(|error| error.kind() == ErrorKind::NotFound, |file| file.len() == 0)
+}
+
+/// Whether a file is gone, or was cut off while these bytes were written to it.
+fn holds_part_of(path: &Path, bytes: &[u8]) -> Result<bool, Error> {
+    match std::fs::read(path) {
+        Ok(found) => Ok(bytes.starts_with(&found)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(true),
+        Err(error) => Err(Error::io(path)(error)),
+    }
+}
+
 fn create_new(directory: &Path, path: &Path) -> Result<File, Error> {
     OpenOptions::new().write(true).create_new(true).open(path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::AlreadyExists => Error::SessionExists(directory.into()),
+        ErrorKind::AlreadyExists => Error::SessionExists(directory.into()),
         _ => Error::io(path)(error),
     })
 }

@@ -24,6 +24,12 @@ impl Experiment {
             if let Some(answered) = event.answered() {
                 experiment.replay(index, event, answered)?;
             }
+            experiment.obey(event).map_err(|error| match error {
+                Error::Stage { call, stage, allowed } => {
+                    differs(index, format!("{call} at the stage {stage}"), format!("{call} at {allowed}"))
+                }
+                other => other,
+            })?;
             let ends = matches!(event, Event::End(_));
             if ends && *experiment.stage() != Stage::Finished {
                 let found = format!("the end of the session at the stage {}", experiment.stage().name());
@@ -31,6 +37,22 @@ impl Experiment {
             }
         }
         Ok(experiment)
+    }
+
+    /// Does what the administrator did.
+    fn obey(&mut self, event: &Event) -> Result<(), Error> {
+        match event {
+            Event::RepeatPractice(_) => self.repeat_practice(),
+            Event::RepeatRound(_) => {
+                // The screens between the last answer and this moment are not in the record.
+                while matches!(self.stage(), Stage::Instructions | Stage::Feedback { .. }) {
+                    self.proceed()?;
+                }
+                self.repeat_round()
+            }
+            Event::Stop(_) => self.stop(),
+            _ => Ok(()),
+        }
     }
 
     fn replay(&mut self, index: usize, event: &Event, answered: &Answered) -> Result<(), Error> {
@@ -49,6 +71,7 @@ impl Experiment {
             answer: answered.answer,
             response_time_secs: answered.response_time_secs,
             pictures_sha256: answered.pictures_sha256.clone(),
+            timing: answered.timing,
         };
         let replayed = self.answer(reply)?;
         if replayed != *event {

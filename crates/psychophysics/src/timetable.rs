@@ -90,6 +90,16 @@ impl Timetable {
         self.round < self.rounds()
     }
 
+    /// Puts the staircases of the round back to their priors.
+    pub(crate) fn restart_round(&mut self, protocol: &Protocol) -> Result<(), Error> {
+        let first = self.round * self.tracks_per_round;
+        for track in &mut self.tracks[first..first + self.tracks_per_round] {
+            *track = track.restarted(protocol)?;
+        }
+        self.cycle.clear();
+        Ok(())
+    }
+
     /// Round under way, from 1.
     pub(crate) fn round_number(&self) -> u32 {
         self.round.min(self.rounds() - 1) as u32 + 1

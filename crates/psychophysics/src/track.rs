@@ -12,6 +12,7 @@ use crate::trial::{Condition, Trial};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     condition: Condition,
+    prior_ratio: f64,
     staircase: Staircase,
     responses: Vec<(f64, bool)>,
     verdict: Verdict,
@@ -34,7 +35,12 @@ impl Track {
     pub(crate) fn new(protocol: &Protocol, condition: Condition, prior_ratio: f64) -> Result<Self, Error> {
         let staircase = protocol.staircase_at(prior_ratio)?;
         let verdict = protocol.convergence.judge(&staircase, &[], intensity_range(protocol, &condition))?;
-        Ok(Self { condition, staircase, responses: Vec::new(), verdict, done: false })
+        Ok(Self { condition, prior_ratio, staircase, responses: Vec::new(), verdict, done: false })
+    }
+
+    /// The same staircase at its prior.
+    pub(crate) fn restarted(&self, protocol: &Protocol) -> Result<Self, Error> {
+        Self::new(protocol, self.condition, self.prior_ratio)
     }
 
     /// Radius that the staircase asks for.

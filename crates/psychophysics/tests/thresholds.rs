@@ -95,7 +95,7 @@ fn a_prior_two_log_units_off_is_not_called_converged_where_its_spread_alone_says
 
 #[test]
 fn someone_who_guesses_is_hardly_ever_called_converged() {
-    let guess = Reply { answer: Answer::Left, response_time_secs: 0.3, pictures_sha256: Vec::new() };
+    let guess = Reply { answer: Answer::Left, response_time_secs: 0.3, pictures_sha256: Vec::new(), timing: None };
     let mut converged = 0;
     for seed in 0..30 {
         let mut experiment = Experiment::new(Protocol::two_alternative(), seed, 0).unwrap();

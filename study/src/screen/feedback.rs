@@ -5,18 +5,19 @@ use scumble_psychophysics::Answer;
 
 use super::page;
 use crate::screen::Action;
+use crate::words::participant::ParticipantWords;
 
 /// The screen after each practice trial.
-pub(crate) fn feedback(ui: &mut Ui, correct: bool, right_answer: Answer) -> Option<Action> {
-    let heading = if correct { "Correct" } else { "Not this time" };
+pub(crate) fn feedback(ui: &mut Ui, correct: bool, right_answer: Answer, words: &ParticipantWords) -> Option<Action> {
+    let heading = if correct { words.correct } else { words.wrong };
     let text = match right_answer {
-        Answer::Left | Answer::Right if correct => "That was the line.",
-        Answer::Left | Answer::Right => "The line was the other one.",
-        Answer::Yes => "It was a line.",
-        Answer::No => "It was not a line: it was made of steps.",
+        Answer::Left | Answer::Right if correct => words.that_was_the_line,
+        Answer::Left | Answer::Right => words.the_other_was,
+        Answer::Yes => words.was_line,
+        Answer::No => words.was_steps,
     };
     page::page(ui, 180.0, heading, |ui| {
         ui.label(text);
-        page::go_on(ui, "Next", Action::Proceed)
+        page::go_on(ui, words.next, words.or_space, Action::Proceed)
     })
 }

@@ -2,12 +2,14 @@
 
 use eframe::egui;
 use egui::{Sense, Ui, Vec2};
+use image::GrayImage;
 use scumble_psychophysics::{Protocol, Task};
-use scumble_stimuli::{Encoding, Kernel, Pattern, Shape, Stimulus};
+use scumble_stimuli::{Encoding, Kernel, Pattern, Shape, Stimulus, Transfer};
 
 use super::{page, question};
-use crate::pixels::{self, Picture};
+use crate::pixels::{self, Picture, draw};
 use crate::screen::Action;
+use crate::words::participant::ParticipantWords;
 
 /// Size of an example, in points.
 const SIZE: Vec2 = Vec2::new(308.0, 88.0);
@@ -24,7 +26,7 @@ const ROW: f32 = 124.0;
 /// The examples as textures, made for one scale factor: a line and an artifact of each pattern.
 #[derive(Default)]
 pub(crate) struct Examples {
-    rows: Vec<[Picture; 2]>,
+    rows: Vec<Vec<Picture>>,
     pixels_per_point: f32,
 }
 
@@ -33,65 +35,39 @@ pub(crate) fn instructions(
     ui: &mut Ui,
     examples: &mut Examples,
     protocol: &Protocol,
+    words: &ParticipantWords,
 ) -> anyhow::Result<Option<Action>> {
     let patterns = &protocol.conditions.patterns;
     examples.prepare(ui.ctx(), patterns)?;
     let height = HEIGHT + ROW * patterns.len() as f32;
-    let [what, how, keys] = words(protocol);
-    let action = page::page(ui, height, question(protocol.task), |ui| {
+    let [what, how, keys] = texts(protocol, words);
+    let action = page::page(ui, height, question(protocol.task, words), |ui| {
         ui.label(what);
-        for [line, steps] in &examples.rows {
+        for row in &examples.rows {
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 24.0;
-                show(ui, line, "A line");
-                show(ui, steps, "Not a line: steps");
+                for (picture, caption) in row.iter().zip([words.example_line, words.example_steps]) {
+                    show(ui, picture, caption);
+                }
             });
         }
         ui.label(how);
         ui.label(keys);
-        ui.label(practice(protocol));
-        page::go_on(ui, "Start", Action::Proceed)
+        ui.label((words.practice_follows)(protocol.practice.ratios.len()));
+        page::go_on(ui, words.start, words.or_space, Action::Proceed)
     });
     Ok(action)
 }
 
-/// What is shown, what to do, and the keys. How many pictures are lines is said where the protocol
+/// What is shown, what to do, and the keys. That some pictures are lines is said where the protocol
 /// holds lines among the measured trials, and nowhere else.
-fn words(protocol: &Protocol) -> [String; 3] {
+fn texts(protocol: &Protocol, words: &ParticipantWords) -> [String; 3] {
     match protocol.task {
-        Task::TwoAlternative => [
-            "You will see two pictures of a shadow's edge, both blurred by the same amount. \
-             Before the blur, one edge was a straight line. The other was made of steps."
-                .to_owned(),
-            "Say each time which one was the line. Take the time you need. Many pairs are too \
-             blurred to be sure; then guess, a guess helps as much as any other answer."
-                .to_owned(),
-            "Left: the left arrow key or F.   Right: the right arrow key or J.   Pause: Escape.".to_owned(),
-        ],
+        Task::TwoAlternative => [words.what_two, words.how_two, words.keys_two].map(String::from),
         Task::YesNo => {
-            let lines = match protocol.line_trials {
-                Some(_) => " Many of the pictures are lines.",
-                None => "",
-            };
-            [
-                format!(
-                    "You will see one picture of a shadow's edge at a time, and it is blurred. Was the edge \
-                     a straight line before the blur, or was it made of steps?{lines}"
-                ),
-                "Say each time whether it was a line. Take the time you need. Many pictures are too \
-                 blurred to be sure; then say what seems more likely, that helps as much as any other answer."
-                    .to_owned(),
-                "Yes: left arrow key, F or Y.   No: right arrow key, J or N.   Pause: Escape.".to_owned(),
-            ]
+            let lines = if protocol.line_trials.is_some() { words.lines_among } else { "" };
+            [format!("{}{lines}", words.what_one), words.how_one.into(), words.keys_one.into()]
         }
-    }
-}
-
-fn practice(protocol: &Protocol) -> String {
-    match protocol.practice.ratios.len() {
-        0 => "There are no trials to practise with.".to_owned(),
-        1 => "The first trial is for practice: you will be told whether you were right.".to_owned(),
-        count => format!("The first {count} trials are for practice: you will be told whether you were right."),
     }
 }
 
@@ -100,9 +76,13 @@ impl Examples {
         let scale = context.pixels_per_point();
         if self.rows.is_empty() || self.pixels_per_point != scale {
             let size_px = [SIZE.x, SIZE.y].map(|side| (side * scale).round() as u32);
-            let draw = |pattern, shape| Picture::new(context, &example(pattern, shape, scale), size_px);
-            let row = |&pattern| Ok([draw(pattern, Shape::Line)?, draw(pattern, Shape::Artifact)?]);
-            self.rows = patterns.iter().map(row).collect::<Result<_, _>>()?;
+            let row = |&pattern: &Pattern| {
+                let [line, steps] = [Shape::Line, Shape::Artifact].map(|shape| example(pattern, shape, scale));
+                draw(&[&line, &steps], size_px, &Transfer::srgb())
+            };
+            let drawn: Vec<_> = patterns.iter().map(row).collect::<Result<_, _>>()?;
+            let upload = |images: Vec<GrayImage>| images.iter().map(|image| Picture::new(context, image)).collect();
+            self.rows = drawn.into_iter().map(upload).collect();
             self.pixels_per_point = scale;
         }
         Ok(())

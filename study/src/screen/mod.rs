@@ -5,9 +5,13 @@ mod finished;
 mod instructions;
 mod page;
 mod paused;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod pictures;
 mod rest;
 mod stopped;
 mod trial;
+mod unsaved;
 
 pub(crate) use feedback::feedback;
 pub(crate) use finished::finished;
@@ -15,9 +19,12 @@ pub(crate) use instructions::{Examples, instructions};
 pub(crate) use paused::paused;
 pub(crate) use rest::rest;
 pub(crate) use stopped::stopped;
-pub(crate) use trial::trial;
+pub(crate) use trial::{too_small, trial};
+pub(crate) use unsaved::unsaved;
 
 use scumble_psychophysics::{Answer, Task};
+
+use crate::words::participant::ParticipantWords;
 
 /// What a participant can ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,14 +37,16 @@ pub(crate) enum Action {
     Pause,
     /// Back from a pause.
     Continue,
+    /// Write again what the disk has refused.
+    Retry,
     /// Close the window.
     Close,
 }
 
 /// What is asked of every trial, the heading of its screen (Kreuzer 2017, figure 4.4, for one picture).
-fn question(task: Task) -> &'static str {
+fn question(task: Task, words: &ParticipantWords) -> &'static str {
     match task {
-        Task::TwoAlternative => "Which one was the line?",
-        Task::YesNo => "Was the original image a line?",
+        Task::TwoAlternative => words.question_two,
+        Task::YesNo => words.question_one,
     }
 }

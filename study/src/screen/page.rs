@@ -14,7 +14,8 @@ const COLUMN: f32 = 640.0;
 pub(super) fn page<R>(ui: &mut Ui, height: f32, heading: &str, content: impl FnOnce(&mut Ui) -> R) -> R {
     let screen = ui.max_rect();
     ui.painter().rect_filled(screen, 0.0, theme::GROUND);
-    let size = Vec2::new(COLUMN.min(screen.width() - 32.0), height.min(screen.height()));
+    let scale = theme::scale(screen);
+    let size = Vec2::new((COLUMN * scale).min(screen.width() - 32.0), (height * scale).min(screen.height()));
     let column = egui::Rect::from_center_size(screen.center(), size);
     // Its own identity: a widget must not look for a frame like another screen's in its place.
     let builder = egui::UiBuilder::new().id_salt(heading).max_rect(column).layout(Layout::top_down(Align::Min));
@@ -27,12 +28,12 @@ pub(super) fn page<R>(ui: &mut Ui, height: f32, heading: &str, content: impl FnO
 }
 
 /// The button that goes on, and its keys.
-pub(super) fn go_on(ui: &mut Ui, label: &str, action: Action) -> Option<Action> {
+pub(super) fn go_on(ui: &mut Ui, label: &str, or_space: &str, action: Action) -> Option<Action> {
     ui.add_space(10.0);
     let clicked = ui
         .horizontal(|ui| {
             let clicked = ui.button(label).clicked();
-            ui.label(RichText::new("or press the space bar").small().color(theme::FAINT_INK));
+            ui.label(RichText::new(or_space).small().color(theme::FAINT_INK));
             clicked
         })
         .inner;

@@ -5,29 +5,24 @@ use scumble_psychophysics::Task;
 
 use super::page;
 use crate::screen::Action;
+use crate::words::participant::ParticipantWords;
 
 /// The screen before round `round` of `rounds`, or in the middle of it.
-pub(crate) fn rest(ui: &mut Ui, task: Task, round: u32, rounds: u32, within_round: bool) -> Option<Action> {
-    let heading = match within_round {
-        true => format!("A rest in round {round} of {rounds}"),
-        false => format!("Round {round} of {rounds}"),
-    };
+pub(crate) fn rest(
+    ui: &mut Ui,
+    task: Task,
+    [round, rounds]: [u32; 2],
+    within_round: bool,
+    words: &ParticipantWords,
+) -> Option<Action> {
+    let heading = if within_round { words.rest_in_round } else { words.round_of };
     let text = match (round, within_round, task) {
-        (1, false, Task::TwoAlternative) => {
-            "From here on your answers count, and you are not told whether they were right. \
-             Pairs that look alike are part of it: guess."
-        }
-        (1, false, Task::YesNo) => {
-            "From here on your answers count, and you are not told whether they were right. \
-             Pictures that leave you in doubt are part of it: say what seems more likely."
-        }
-        _ => {
-            "Rest your eyes for a moment: look up and into the distance. \
-             Go on when you are ready."
-        }
+        (1, false, Task::TwoAlternative) => words.it_counts_two,
+        (1, false, Task::YesNo) => words.it_counts_one,
+        _ => words.rest,
     };
-    page::page(ui, 240.0, &heading, |ui| {
+    page::page(ui, 240.0, &heading(round, rounds), |ui| {
         ui.label(text);
-        page::go_on(ui, "Go on", Action::Proceed)
+        page::go_on(ui, words.go_on, words.or_space, Action::Proceed)
     })
 }

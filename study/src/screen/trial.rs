@@ -5,11 +5,12 @@
 
 use eframe::egui;
 use egui::{Align2, Button, Pos2, Rect, TextStyle, Ui, Vec2};
-use scumble_psychophysics::{Answer, Experiment, Stage};
+use scumble_psychophysics::{Answer, Experiment, Protocol, Stage, Task};
 
 use super::{page, question};
-use crate::presentation::Presentation;
+use crate::presentation::{Presentation, Screen};
 use crate::screen::Action;
+use crate::words::participant::ParticipantWords;
 use crate::{keys, pixels, theme};
 
 /// Between two pictures, in physical pixels.
@@ -27,26 +28,22 @@ pub(crate) fn trial(
     ui: &mut Ui,
     presentation: &mut Presentation,
     experiment: &Experiment,
+    display: &Screen,
+    words: &ParticipantWords,
 ) -> anyhow::Result<Option<Action>> {
     let screen = ui.max_rect();
     ui.painter().rect_filled(screen, 0.0, theme::GROUND);
-    let rules = experiment.protocol().pictures;
-    let size_px = [rules.width_px, rules.height_px];
     let pictures = presentation.trial().pictures;
-    let places = Places::new(screen, size_px, pictures.all().len(), ui.pixels_per_point());
-    if !screen.contains_rect(places.needed) {
-        too_small(ui, screen, places.needed);
-        return Ok(None);
-    }
+    let places = Places::new(screen, display.size_px, pictures.all().len(), ui.pixels_per_point());
 
     // A key that was pressed before the pictures were there is not an answer to them.
     let was_shown = presentation.pictures().is_some();
     let answers = pictures.answers();
     let key = keys::answer(ui.ctx(), answers).filter(|_| was_shown).map(Action::Answer);
-    presentation.advance(ui.ctx(), size_px)?;
+    presentation.advance(ui.ctx(), display)?;
 
-    let top = Pos2::new(screen.center().x, places.pictures[0].top() - MARGIN);
-    text(ui, top, Align2::CENTER_BOTTOM, TextStyle::Heading, question(experiment.protocol().task));
+    let top = Pos2::new(screen.center().x, places.pictures[0].top() - MARGIN * places.scale);
+    text(ui, top, Align2::CENTER_BOTTOM, TextStyle::Heading, question(experiment.protocol().task, words));
     match presentation.pictures() {
         Some(pictures) => {
             for (picture, place) in pictures.iter().zip(&places.pictures) {
@@ -60,12 +57,30 @@ pub(crate) fn trial(
     }
     let mut clicked = None;
     for (answer, place) in answers.into_iter().zip(places.buttons) {
-        if button(ui, place, answer) && was_shown {
+        if button(ui, place, answer, words) && was_shown {
             clicked = Some(Action::Answer(answer));
         }
     }
-    progress(ui, screen, experiment);
+    progress(ui, screen, experiment, words);
     Ok(key.or(clicked))
+}
+
+/// In place of pictures that would be cut off: whether they would be, and the page that says so.
+pub(crate) fn too_small(ui: &mut Ui, protocol: &Protocol, words: &ParticipantWords) -> bool {
+    let screen = ui.max_rect();
+    let rules = protocol.pictures;
+    let count = match protocol.task {
+        Task::TwoAlternative => 2,
+        Task::YesNo => 1,
+    };
+    let needed = Places::new(screen, [rules.width_px, rules.height_px], count, ui.pixels_per_point()).needed;
+    let is_too_small = !screen.contains_rect(needed);
+    if is_too_small {
+        let pixels = |rect: Rect| [rect.width(), rect.height()].map(|side| side * ui.pixels_per_point());
+        let text = (words.pixels_needed)(pixels(needed), pixels(screen));
+        page::page(ui, 200.0, words.too_small, |ui| ui.label(text));
+    }
+    is_too_small
 }
 
 /// Where the pictures and the buttons go, in points.
@@ -75,12 +90,15 @@ struct Places {
     buttons: [Rect; 2],
     /// Everything, with the room that the words take.
     needed: Rect,
+    /// How much larger than life the words and buttons are.
+    scale: f32,
 }
 
 impl Places {
     fn new(screen: Rect, size_px: [u32; 2], count: usize, pixels_per_point: f32) -> Self {
+        let scale = theme::scale(screen);
         let size = Vec2::new(size_px[0] as f32, size_px[1] as f32) / pixels_per_point;
-        let centre = screen.center() + Vec2::new(0.0, 0.5 * (ABOVE - BELOW));
+        let centre = screen.center() + Vec2::new(0.0, 0.5 * scale * (ABOVE - BELOW));
         let step = size.x + GAP_PX / pixels_per_point;
         let place = |index: usize| {
             let aside = (index as f32 - 0.5 * (count as f32 - 1.0)) * step;
@@ -90,24 +108,25 @@ impl Places {
 
         // Below the middles of two pictures, or of the halves of one.
         let of_pictures = if count == 1 { 0.25 * size.x } else { 0.5 * step };
-        let aside = of_pictures.max(0.5 * (BUTTON.x + MARGIN));
-        let below = centre + Vec2::new(0.0, 0.5 * (size.y + BUTTON.y) + MARGIN);
-        let buttons = [-aside, aside].map(|x| Rect::from_center_size(below + Vec2::new(x, 0.0), BUTTON));
+        let (button, margin) = (BUTTON * scale, MARGIN * scale);
+        let aside = of_pictures.max(0.5 * (button.x + margin));
+        let below = centre + Vec2::new(0.0, 0.5 * (size.y + button.y) + margin);
+        let buttons = [-aside, aside].map(|x| Rect::from_center_size(below + Vec2::new(x, 0.0), button));
 
         let mut needed = pictures.iter().fold(buttons[0].union(buttons[1]), |all, picture| all.union(*picture));
-        needed.min.y = centre.y - 0.5 * size.y - ABOVE;
-        needed.max.y = centre.y + 0.5 * size.y + BELOW;
-        Self { pictures, buttons, needed }
+        needed.min.y = centre.y - 0.5 * size.y - scale * ABOVE;
+        needed.max.y = centre.y + 0.5 * size.y + scale * BELOW;
+        Self { pictures, buttons, needed, scale }
     }
 }
 
 /// An answer to click, with its keys below.
-fn button(ui: &mut Ui, place: Rect, answer: Answer) -> bool {
+fn button(ui: &mut Ui, place: Rect, answer: Answer, words: &ParticipantWords) -> bool {
     let (label, keys) = match answer {
-        Answer::Left => ("Left", "left arrow or F"),
-        Answer::Right => ("Right", "right arrow or J"),
-        Answer::Yes => ("Yes, a line", "left arrow, F or Y"),
-        Answer::No => ("No", "right arrow, J or N"),
+        Answer::Left => (words.left, words.left_keys),
+        Answer::Right => (words.right, words.right_keys),
+        Answer::Yes => (words.yes, words.yes_keys),
+        Answer::No => (words.no, words.no_keys),
     };
     let below = place.center_bottom() + Vec2::new(0.0, 8.0);
     text(ui, below, Align2::CENTER_TOP, TextStyle::Small, keys);
@@ -118,23 +137,27 @@ fn button(ui: &mut Ui, place: Rect, answer: Answer) -> bool {
 }
 
 /// How far the session is, counted in answers of every role alike.
-fn progress(ui: &Ui, screen: Rect, experiment: &Experiment) {
-    let centre = Pos2::new(screen.center().x, screen.bottom() - 26.0);
-    if matches!(experiment.stage(), Stage::Practice(_)) {
-        text(ui, centre, Align2::CENTER_CENTER, TextStyle::Small, "Practice");
+fn progress(ui: &Ui, screen: Rect, experiment: &Experiment, words: &ParticipantWords) {
+    let scale = theme::scale(screen);
+    let centre = Pos2::new(screen.center().x, screen.bottom() - 26.0 * scale);
+    let protocol = experiment.protocol();
+    if let Stage::Practice(trial) = experiment.stage() {
+        // Practice that is repeated goes on counting.
+        let count = protocol.practice.ratios.len();
+        let number = (trial.number - 1) % count as u32 + 1;
+        text(ui, centre, Align2::CENTER_CENTER, TextStyle::Small, &(words.practice_of)(number, count));
         return;
     }
-    let (progress, protocol) = (experiment.progress(), experiment.protocol());
-    let words = format!("Round {} of {}", progress.round, progress.rounds);
-    let above = centre - Vec2::new(0.0, 8.0);
-    text(ui, above, Align2::CENTER_BOTTOM, TextStyle::Small, &words);
+    let progress = experiment.progress();
+    let above = centre - Vec2::new(0.0, 8.0 * scale);
+    text(ui, above, Align2::CENTER_BOTTOM, TextStyle::Small, &(words.round_of)(progress.round, progress.rounds));
 
     // Of the answers to come, these are for staircases. Their greatest number only shrinks, so the bar only grows.
     let measured_share = (1.0 - protocol.catch_trials.map_or(0.0, |catch| catch.share))
         * (1.0 - protocol.line_trials.map_or(0.0, |lines| lines.share));
     let at_most = f64::from(progress.trials_at_most) / measured_share;
     let done = (f64::from(progress.answered) / at_most).min(1.0) as f32;
-    let track = Rect::from_center_size(centre, Vec2::new(240.0, 4.0));
+    let track = Rect::from_center_size(centre, Vec2::new(240.0, 4.0) * scale);
     let filled = Rect::from_min_size(track.min, Vec2::new(track.width() * done, track.height()));
     ui.painter().rect_filled(track, 2.0, theme::TRACK);
     ui.painter().rect_filled(filled, 2.0, theme::FAINT_INK);
@@ -144,26 +167,15 @@ fn text(ui: &Ui, place: Pos2, anchor: Align2, style: TextStyle, words: &str) {
     ui.painter().text(place, anchor, words, style.resolve(ui.style()), theme::INK);
 }
 
-/// In place of pictures that would be cut off.
-fn too_small(ui: &mut Ui, screen: Rect, needed: Rect) {
-    let scale = ui.pixels_per_point();
-    let pixels = |rect: Rect| format!("{:.0} x {:.0}", rect.width() * scale, rect.height() * scale);
-    page::page(ui, 200.0, "The window is too small", |ui| {
-        ui.label(format!(
-            "The pictures need {} physical pixels, the window has {}. Make it larger, or choose a \
-             display with more pixels.",
-            pixels(needed),
-            pixels(screen)
-        ));
-    });
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
+    use crate::presentation::FIXATION;
     use crate::screen;
-    use scumble_psychophysics::Protocol;
+    use crate::words::words;
+    use scumble_psychophysics::Language;
+    use scumble_stimuli::Transfer;
 
     /// Fills of everything as large as a button that a frame draws.
     fn buttons(context: &egui::Context, show: impl FnMut(&mut Ui)) -> Vec<egui::Color32> {
@@ -179,6 +191,7 @@ mod tests {
 
     #[test]
     fn both_buttons_look_alike_from_the_first_frame_on() {
+        let words = &words(Language::English).participant;
         for name in ["two-alternative", "yes-no", "published"] {
             let context = egui::Context::default();
             theme::apply(&context);
@@ -186,12 +199,14 @@ mod tests {
             experiment.proceed().unwrap();
             let trial = *experiment.stage().trial().unwrap();
             let answer = trial.pictures.right_answer();
+            let display = Screen { size_px: [60, 48], transfer: Transfer::srgb(), refresh_hz: None };
 
             for _ in 0..2 {
-                buttons(&context, |ui| _ = screen::feedback(ui, true, answer));
+                buttons(&context, |ui| _ = screen::feedback(ui, true, answer, words));
             }
-            let mut presentation = Presentation::new(trial);
-            let mut frame = || buttons(&context, |ui| _ = super::trial(ui, &mut presentation, &experiment).unwrap());
+            let mut shown = Presentation::new(trial, FIXATION);
+            let mut frame =
+                || buttons(&context, |ui| _ = super::trial(ui, &mut shown, &experiment, &display, words).unwrap());
             let first = frame();
             assert_eq!(first.len(), 2, "{name}");
             assert_eq!(first[0], first[1], "{name}");

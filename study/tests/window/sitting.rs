@@ -201,5 +201,5 @@ fn next_trial(experiment: &mut Experiment) -> Option<Trial> {
 }
 
 fn reply(answer: Answer) -> Reply {
-    Reply { answer, response_time_secs: 0.0, pictures_sha256: Vec::new() }
+    Reply { answer, response_time_secs: 0.0, pictures_sha256: Vec::new(), timing: None }
 }

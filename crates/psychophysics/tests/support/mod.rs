@@ -53,7 +53,7 @@ pub fn answers(protocol: &Protocol, sessions: u64) -> Vec<Vec<Answered>> {
 }
 
 pub fn reply(answer: Answer, response_time_secs: f64) -> Reply {
-    Reply { answer, response_time_secs, pictures_sha256: Vec::new() }
+    Reply { answer, response_time_secs, pictures_sha256: Vec::new(), timing: None }
 }
 
 /// What `person` replies to the trial on show, without pictures.
@@ -80,7 +80,7 @@ pub fn watch(protocol: &Protocol, seed: u64, participant_number: u32, mut look: 
 }
 
 pub fn moment(note: &str) -> Moment {
-    Moment { at: "2026-03-01T09:40:00Z".parse().unwrap(), notes: vec![note.into()] }
+    Moment { at: "2026-03-01T09:40:00Z".parse().unwrap(), notes: vec![note.into()], interrupted_secs: None }
 }
 
 pub fn header(protocol: Protocol) -> SessionHeader {

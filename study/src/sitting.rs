@@ -1,0 +1,193 @@
+//! One session under way: the experiment, its record and its time, kept in step.
+//!
+//! Nothing here draws. Whatever happens is an event; the event is on disk, or waits in memory with the
+//! session held, before the next stage is shown.
+
+use std::path::Path;
+use std::time::Instant;
+
+use jiff::Timestamp;
+use scumble_psychophysics::{Display, Event, Experiment, Moment, Reply, SessionHeader, Stage};
+
+use crate::arguments::ResumePolicy;
+use crate::clock::Clock;
+use crate::recorder::Recorder;
+
+/// A session of a participant, from its instructions to its end.
+pub(crate) struct Sitting {
+    experiment: Experiment,
+    recorder: Recorder,
+    clock: Clock,
+    pause: Option<Pause>,
+}
+
+/// An interruption that has not ended.
+struct Pause {
+    began_at: Instant,
+    /// How long it had lasted before the program was started.
+    earlier_secs: f64,
+    /// What belongs into the record where the session goes on.
+    notes: Vec<String>,
+    /// Whether the round begins anew then.
+    repeats_round: bool,
+}
+
+impl Sitting {
+    /// A session that nobody has begun; refuses a directory that holds one.
+    pub(crate) fn fresh(directory: &Path, header: SessionHeader) -> anyhow::Result<Self> {
+        let experiment = Experiment::new(header.protocol.clone(), header.seed, header.participant_number)?;
+        let recorder = Recorder::plan(directory, header)?;
+        Ok(Self { experiment, recorder, clock: Clock::start(), pause: None })
+    }
+
+    /// An interrupted session, paused.
+    pub(crate) fn resume(directory: &Path, policy: ResumePolicy) -> anyhow::Result<Self> {
+        let (recorder, session) = Recorder::reopen(directory)?;
+        anyhow::ensure!(!session.is_complete(), "{}: the session is complete", directory.display());
+        anyhow::ensure!(!session.is_closed(), "{}: the session was ended or discarded", directory.display());
+        let experiment = session.replay()?;
+        let (last_at, now) = (session.last_known_at(), Timestamp::now());
+        let (clock, earlier_secs) = Clock::resume(session.header.started_at, last_at, now);
+        let mut notes = session.notices;
+        if now < last_at {
+            notes.push(format!("the clock stands at {now}, before the end of the record at {last_at}"));
+        }
+        let repeats_round = policy == ResumePolicy::RepeatRound;
+        let pause = Some(Pause { began_at: Instant::now(), earlier_secs, notes, repeats_round });
+        Ok(Self { experiment, recorder, clock, pause })
+    }
+
+    /// What happens next.
+    pub(crate) fn experiment(&self) -> &Experiment {
+        &self.experiment
+    }
+
+    /// Where it is kept.
+    pub(crate) fn recorder(&self) -> &Recorder {
+        &self.recorder
+    }
+
+    /// Seconds since it began.
+    pub(crate) fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// Whether the pictures are hidden until someone goes on.
+    pub(crate) fn is_paused(&self) -> bool {
+        self.pause.is_some()
+    }
+
+    /// Whether a pause makes sense: there is something left to interrupt.
+    pub(crate) fn is_open(&self) -> bool {
+        *self.experiment.stage() != Stage::Finished && !self.recorder.is_closed()
+    }
+
+    /// On from a screen that asks nothing; the session begins with the first one, on this display.
+    pub(crate) fn proceed(&mut self, display: impl FnOnce() -> Option<Display>) -> anyhow::Result<()> {
+        if !self.recorder.has_begun() {
+            self.clock = Clock::start();
+            self.recorder.begin(|header| {
+                header.started_at = Timestamp::now();
+                header.display = display();
+            });
+        }
+        self.experiment.proceed()?;
+        self.end_if_finished();
+        Ok(())
+    }
+
+    /// An answer to the trial on show.
+    pub(crate) fn answer(&mut self, reply: Reply) -> anyhow::Result<()> {
+        let event = self.experiment.answer(reply)?;
+        self.recorder.append(event);
+        self.end_if_finished();
+        Ok(())
+    }
+
+    /// Hides the pictures; the trial under way is shown anew afterwards.
+    pub(crate) fn pause(&mut self) {
+        if self.is_open() && self.pause.is_none() {
+            self.recorder.append(Event::Pause(moment(Vec::new())));
+            let (began_at, notes) = (Instant::now(), Vec::new());
+            self.pause = Some(Pause { began_at, earlier_secs: 0.0, notes, repeats_round: false });
+        }
+    }
+
+    /// Goes on after a pause.
+    pub(crate) fn go_on(&mut self) -> anyhow::Result<()> {
+        if let Some(pause) = self.pause.take() {
+            let interrupted_secs = Some(pause.earlier_secs + pause.began_at.elapsed().as_secs_f64());
+            self.recorder.append(Event::Resume(Moment { interrupted_secs, ..moment(pause.notes) }));
+            // A round that has no answer yet is as good as repeated.
+            if pause.repeats_round && self.can_repeat_round() {
+                self.repeat_round()?;
+            }
+            self.end_if_finished();
+        }
+        Ok(())
+    }
+
+    /// Puts a note of the administrator into the record.
+    pub(crate) fn note(&mut self, note: String) {
+        self.recorder.append(Event::Note(moment(vec![note])));
+    }
+
+    /// The practice once more.
+    pub(crate) fn repeat_practice(&mut self) -> anyhow::Result<()> {
+        self.experiment.repeat_practice()?;
+        self.recorder.append(Event::RepeatPractice(moment(Vec::new())));
+        Ok(())
+    }
+
+    /// Whether the round under way has answers that could be thrown away.
+    pub(crate) fn can_repeat_round(&self) -> bool {
+        self.experiment.clone().repeat_round().is_ok()
+    }
+
+    /// The round under way once more; its answers do not stand.
+    pub(crate) fn repeat_round(&mut self) -> anyhow::Result<()> {
+        self.experiment.repeat_round()?;
+        self.recorder.append(Event::RepeatRound(moment(Vec::new())));
+        Ok(())
+    }
+
+    /// Ends the session early.
+    pub(crate) fn stop(&mut self) -> anyhow::Result<()> {
+        self.experiment.stop()?;
+        self.recorder.append(Event::Stop(moment(Vec::new())));
+        self.pause = None;
+        Ok(())
+    }
+
+    /// Tries again to write what the disk has refused.
+    pub(crate) fn retry(&mut self) {
+        self.recorder.retry();
+    }
+
+    /// The window closes: an open session is interrupted.
+    pub(crate) fn leave(&mut self) {
+        self.recorder.retry();
+        self.pause();
+    }
+
+    fn end_if_finished(&mut self) {
+        if *self.experiment.stage() == Stage::Finished && self.pause.is_none() && !self.recorder.is_closed() {
+            self.recorder.append(Event::End(moment(Vec::new())));
+        }
+    }
+}
+
+/// This moment, with what is worth knowing about it.
+fn moment(notes: Vec<String>) -> Moment {
+    Moment { at: Timestamp::now(), notes, interrupted_secs: None }
+}
+
+/// Throws an interrupted session away: its record says so, and stays.
+pub(crate) fn discard(directory: &Path) -> anyhow::Result<()> {
+    let (mut recorder, _) = Recorder::reopen(directory)?;
+    recorder.append(Event::Discard(moment(Vec::new())));
+    match recorder.problem() {
+        Some(problem) => anyhow::bail!("{problem}"),
+        None => Ok(()),
+    }
+}
