@@ -12,10 +12,18 @@ use std::time::Duration;
 use jiff::Timestamp;
 use scumble_psychophysics::{Answered, Event, Protocol, Session, read_session};
 
+#[path = "../tests/window/pixels.rs"]
+#[allow(dead_code, reason = "the tests use all of it")]
+mod pixels;
+#[path = "../tests/window/programs.rs"]
+#[allow(dead_code, reason = "the tests use all of it")]
+mod programs;
 #[path = "../tests/window/screen.rs"]
 #[allow(dead_code, reason = "the tests use all of it")]
+#[allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 mod screen;
 
+use programs::Running;
 use screen::Screen;
 
 /// Sessions a protocol; the first is not counted, because its pictures come from a cold machine.
@@ -67,7 +75,7 @@ fn rehearse(screen: &Screen, folder: &Path, name: &str, run: u32) -> anyhow::Res
     let arguments: Vec<String> = arguments.into_iter().chain(rehearsal).map(String::from).collect();
 
     let began = Timestamp::now();
-    let mut study = screen.study(&arguments, "1");
+    let mut study = Running(screen.study(&arguments, &[]).spawn()?);
     let status_file = format!("/proc/{}/status", study.0.id());
     let mut megabytes = 0.0;
     let status = loop {
