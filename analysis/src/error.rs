@@ -84,6 +84,9 @@ pub enum Error {
     /// The data are readable and do not carry the fit.
     #[error("the data cannot carry a fit: {0}")]
     CannotFit(String),
+    /// There is no session to make a dataset of.
+    #[error("nothing to export: {0}")]
+    CannotExport(String),
     /// The protocol cannot measure what is expected.
     #[error("the protocol cannot measure the answer: {0}")]
     CannotPlan(String),

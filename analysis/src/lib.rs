@@ -63,9 +63,11 @@ mod checks;
 mod count_table;
 mod error;
 mod estimate;
+mod export;
 mod figure;
 mod fit_figure;
 mod fit_outputs;
+mod load;
 mod maximum_likelihood;
 mod outputs;
 mod people;
@@ -90,13 +92,15 @@ pub use checks::Checks;
 pub use count_table::{CountTableFit, fit_count_table, read_count_table};
 pub use error::{Error, Unidentified};
 pub use estimate::{MeanOverPeople, SizePoint, exponent, intercept_px, line, line_through_origin};
+pub use export::{Export, ExportedSession, Status};
 pub use fit_figure::{FIT_FIGURE, fit_figure};
 pub use fit_outputs::{RELATION, fit_study};
+pub use load::{LoadedSession, session_directories};
 pub use maximum_likelihood::{
     Count, Fitted, LAPSE_LARGEST, LIKELIHOOD_DROP_95, Model, Parameter, SLOPE_RANGE, fit, log_likelihood,
 };
 pub use outputs::{Output, write_outputs};
-pub use people::{LoadedSession, Person, Run, Study, Track, session_directories};
+pub use people::{Person, Run, Study, Track};
 pub use plan::{Accuracy, COHORTS, IntervalForecast, Plan, SeriesForecast, Spread, Staircases};
 pub use population::{DETECTIONS, Population, PopulationPoint, SLOPE_CI95, VIEWERS};
 pub use quest_table::{TableAnswer, read_quest_config, read_responses, write_summaries};

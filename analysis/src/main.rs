@@ -10,7 +10,7 @@ use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use scumble_analysis::{
-    Parameter, Plan, Simulation, Study, fit_count_table, fit_study, hashed_pictures, read_count_table,
+    Export, Parameter, Plan, Simulation, Study, fit_count_table, fit_study, hashed_pictures, read_count_table,
     read_quest_config, read_responses, replay_session, session_directories, with_false_alarms, with_slope,
     write_summaries,
 };
@@ -125,6 +125,31 @@ its `correct`, leads to nothing that could differ.")]
         #[arg(required = true, value_name = "SESSION")]
         sessions: Vec<PathBuf>,
     },
+    /// Writes a BIDS dataset: the layout in which other laboratories' programs read behavioural data.
+    #[command(after_help = "Examples:
+  scumble-analysis export study1 --bids study1-bids          every session in the folder study1
+  scumble-analysis export study1/p01 study2 --bids both      one session, and a folder of sessions
+
+Writes dataset_description.json, README.md, participants.tsv, and for each session
+sub-CODE/beh/sub-CODE_task-PROTOCOL_events.tsv: a row a trial or other event, with onset, duration,
+trial_type, response_time and every other fact of the record; a JSON file beside each table describes its
+columns. Where one participant has several sessions, all folders are sub-CODE/ses-N, in the order of time.
+The records themselves are copied into sourcedata, so that the dataset can be replayed and fitted:
+  scumble-analysis fit study1-bids/sourcedata --out fit
+
+Labels are letters and digits: the code p-07_a becomes sub-p07a; participants.tsv has the codes as they were.
+Discarded sessions, and sessions without an answer, stay out; each is named. A session that was recorded
+before onsets were is refused. DIR must not exist or be empty, and is complete or not made at all.
+
+The dataset passes the BIDS validator, which asks for the authors: name them in dataset_description.json.")]
+    Export {
+        /// A session, or a folder with sessions directly in it.
+        #[arg(required = true, value_name = "SESSION")]
+        sessions: Vec<PathBuf>,
+        /// Folder for the dataset; made by this command.
+        #[arg(long, value_name = "DIR")]
+        bids: PathBuf,
+    },
     /// Runs QUEST over a table of answers and prints its summaries as CSV.
     #[command(after_help = "Example:
   echo '{\"tGuess\": -0.5, \"tGuessSd\": 0.6, \"pThreshold\": 0.82, \"beta\": 3.5, \"delta\": 0.01, \"gamma\": 0.5}' > config.json
@@ -230,6 +255,7 @@ fn run(command: Command) -> anyhow::Result<()> {
             plan(&simulation, seconds_per_trial, json.as_deref()).context(protocol)
         }
         Command::Replay { sessions } => replay(&sessions),
+        Command::Export { sessions, bids } => export(&sessions, &bids),
         Command::Quest { config, responses } => {
             let (parameters, answers) = (read_quest_config(&config)?, read_responses(&responses)?);
             Ok(write_summaries(&parameters, &answers, [&config, &responses], stdout().lock())?)
@@ -318,6 +344,30 @@ fn replay(paths: &[PathBuf]) -> anyhow::Result<()> {
             );
         }
     }
+    Ok(())
+}
+
+/// Writes the dataset and prints a line a session; notices go to the error stream.
+fn export(sessions: &[PathBuf], bids: &Path) -> anyhow::Result<()> {
+    let export = Export::read(sessions)?;
+    for notice in export.sessions.iter().flat_map(|exported| &exported.session().notices) {
+        eprintln!("notice: {notice}");
+    }
+    export.write(bids)?;
+    for exported in &export.sessions {
+        println!(
+            "{}  from {}: {} answers, {} measured trials stand, {}",
+            exported.name(),
+            exported.session().directory.display(),
+            exported.answers(),
+            exported.standing_trials(),
+            exported.status().name(),
+        );
+    }
+    for (directory, reason) in &export.left_out {
+        println!("left out  {}: {reason}", directory.display());
+    }
+    println!("wrote     {} sessions into {}", export.sessions.len(), bids.display());
     Ok(())
 }
 

@@ -1,23 +1,18 @@
-//! Sessions on disk become people with answers.
+//! Sessions become people with answers.
 //!
-//! Every session is replayed through the experiment's state machine, so that a record that its seed
-//! and protocol do not lead to is refused and the convergence rule is the experiment's own. Sessions
-//! of one participant code are one person. All sessions must share one protocol; simulated people
-//! and humans are not mixed.
+//! The convergence rule is the experiment's own, which replayed every session. Sessions of one participant code
+//! are one person. All sessions must share one protocol; simulated people and humans are not mixed.
 
-use std::{
-    collections::BTreeMap,
-    path::{Path, PathBuf},
-};
+use std::{collections::BTreeMap, path::PathBuf};
 
-use rayon::prelude::*;
 use scumble_core::SessionHash;
-use scumble_psychophysics::{
-    Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Reason, Session, read_session,
-};
-use sha2::{Digest, Sha256};
+use scumble_psychophysics::{Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Reason};
 
-use crate::{Error, checks::Checks};
+use crate::{
+    Error,
+    checks::Checks,
+    load::{LoadedSession, check_kind, directory_name, load_sessions},
+};
 
 /// The answers that one staircase of one session learned from, in the order of the trials.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,15 +77,6 @@ impl Person {
     }
 }
 
-/// A session with what identifies it.
-#[derive(Debug, Clone)]
-pub struct LoadedSession {
-    /// The record.
-    pub session: Session,
-    /// SHA-256 of `session.json` followed by `events.jsonl`, hexadecimal.
-    pub sha256: String,
-}
-
 /// All people of a study.
 #[derive(Debug, Clone)]
 pub struct Study {
@@ -111,14 +97,7 @@ impl Study {
     /// Names the folder without sessions, the damaged file and line, the session with another
     /// protocol, or the copy of a session.
     pub fn read(paths: &[PathBuf]) -> Result<Self, Error> {
-        let mut directories = Vec::new();
-        for path in paths {
-            directories.extend(session_directories(path)?);
-        }
-        directories.sort();
-        directories.dedup();
-        let loaded: Vec<(LoadedSession, Experiment)> =
-            directories.par_iter().map(|path| load(path)).collect::<Result<_, Error>>()?;
+        let loaded = load_sessions(paths)?;
         check_alike(&loaded)?;
         let Some((first, _)) = loaded.first() else {
             return Err(Error::CannotFit("no session was given".to_owned()));
@@ -168,74 +147,21 @@ impl Study {
     }
 }
 
-/// A directory's own name.
-pub(crate) fn directory_name(directory: &Path) -> String {
-    directory.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-}
-
-/// `path` itself where it holds a session, else the folders directly below it that do, by name.
-///
-/// # Errors
-/// A path that cannot be read or holds no session.
-pub fn session_directories(path: &Path) -> Result<Vec<PathBuf>, Error> {
-    let is_session = |path: &Path| path.join(HEADER_FILE).exists() || path.join(EVENTS_FILE).exists();
-    let path = path.canonicalize().map_err(Error::io(path))?;
-    if is_session(&path) {
-        return Ok(vec![path]);
-    }
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(&path).map_err(Error::io(&path))? {
-        let entry = entry.map_err(Error::io(&path))?.path();
-        if is_session(&entry) {
-            found.push(entry);
-        }
-    }
-    if found.is_empty() {
-        let reason = format!("no session: neither the folder nor a folder in it has {HEADER_FILE}");
-        return Err(Error::File { path, reason });
-    }
-    found.sort();
-    Ok(found)
-}
-
-fn load(directory: &Path) -> Result<(LoadedSession, Experiment), Error> {
-    let mut hash = Sha256::new();
-    for name in [HEADER_FILE, EVENTS_FILE] {
-        let path = directory.join(name);
-        hash.update(std::fs::read(&path).map_err(Error::io(&path))?);
-    }
-    let session = read_session(directory)?;
-    if !session.events.iter().any(|event| matches!(event, Event::Trial(_))) {
-        let reason = "the session has no measured trial; leave it out".to_owned();
-        return Err(Error::File { path: directory.join(EVENTS_FILE), reason });
-    }
-    let experiment = session.replay()?;
-    let sha256 = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    Ok((LoadedSession { session, sha256 }, experiment))
-}
-
-/// Refuses copies, a second protocol, and humans among simulated people.
+/// Refuses a session without a measured trial, a second protocol, and humans among simulated people.
 fn check_alike(loaded: &[(LoadedSession, Experiment)]) -> Result<(), Error> {
-    let mut known: BTreeMap<&str, &Path> = BTreeMap::new();
     let Some((first, _)) = loaded.first() else { return Ok(()) };
     let first = &first.session;
-    for (LoadedSession { session, sha256 }, _) in loaded {
-        let path = session.directory.join(HEADER_FILE);
-        if let Some(original) = known.insert(sha256, &session.directory) {
-            let reason = format!("a copy of the session {}; each counts once", original.display());
-            return Err(Error::File { path, reason });
+    for (LoadedSession { session, .. }, _) in loaded {
+        if !session.events.iter().any(|event| matches!(event, Event::Trial(_))) {
+            let reason = "the session has no measured trial; leave it out".to_owned();
+            return Err(Error::File { path: session.directory.join(EVENTS_FILE), reason });
         }
         if session.header.protocol != first.header.protocol {
             let other = first.directory.display();
             let reason = format!("its protocol differs from that of {other}; a fit takes one protocol");
-            return Err(Error::File { path, reason });
+            return Err(Error::File { path: session.directory.join(HEADER_FILE), reason });
         }
-        let simulated = |session: &Session| session.header.simulated_observer.is_some();
-        if simulated(session) != simulated(first) {
-            let other = first.directory.display();
-            let reason = format!("one of this session and {other} is simulated; a fit takes one kind");
-            return Err(Error::File { path, reason });
-        }
+        check_kind(first, session)?;
     }
     Ok(())
 }

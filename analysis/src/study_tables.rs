@@ -7,7 +7,8 @@ use serde::Serialize;
 
 use crate::{
     Error,
-    people::{Study, directory_name},
+    load::directory_name,
+    people::Study,
     series::{kernel_name, pattern_name},
     thresholds::ConditionThreshold,
 };

@@ -43,6 +43,29 @@ fn simulate_and_fit_make_a_relation() {
 }
 
 #[test]
+fn export_prints_a_line_a_session_and_replaces_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sessions, out) = (folder.path().join("sessions"), folder.path().join("bids"));
+    let simulate = ["simulate", "--out", path(&sessions), "--observers", "2", "--seed", "1"];
+    assert!(program(&simulate).status.success());
+    let export = ["export", path(&sessions), "--bids", path(&out)];
+    let first = program(&export);
+    assert!(first.status.success(), "{first:?}");
+    let printed = String::from_utf8(first.stdout).unwrap();
+    assert_eq!(printed.lines().count(), 3, "{printed}");
+    for (line, label) in printed.lines().zip(["sub-sim0001", "sub-sim0002"]) {
+        assert!(line.starts_with(label) && line.ends_with("trials stand, complete"), "{line}");
+        assert!(out.join(label).join("beh").join(format!("{label}_task-twoalternative_events.tsv")).exists());
+    }
+
+    let again = program(&export);
+    assert_eq!(again.status.code(), Some(1));
+    let message = String::from_utf8(again.stderr).unwrap();
+    assert_eq!(message.lines().count(), 1);
+    assert!(message.contains("allowed is a folder that is empty or does not exist"), "{message}");
+}
+
+#[test]
 fn threshold_prints_the_keys_of_the_reference() {
     let table = data("weibull_fit_data.csv");
     let output = program(&["threshold", "--data", path(&table), "--guess", "0.5", "--lapse", "0.01"]);
@@ -141,7 +164,7 @@ fn what_is_wrong_takes_one_line_and_exit_status_1() {
 
 #[test]
 fn help_teaches_by_example() {
-    for command in ["fit", "simulate", "quest", "threshold"] {
+    for command in ["fit", "simulate", "export", "quest", "threshold"] {
         let help = String::from_utf8(program(&[command, "--help"]).stdout).unwrap();
         assert!(help.contains("Example") && help.contains(&format!("scumble-analysis {command}")));
     }

@@ -4,6 +4,7 @@
 //! quick demo; `setup` only installs. On Debian and Ubuntu missing packages are installed and named first;
 //! elsewhere the list of what to install is printed and nothing is changed.
 
+mod bids;
 mod demo;
 mod packages;
 mod report;
@@ -34,6 +35,8 @@ enum Task {
         quick: bool,
     },
     /// Install what the tests need, run them all, then a quick demo whose numbers are checked
+    ///
+    /// Where npm is on the path, exported datasets are put before the BIDS validator too.
     Test,
     /// Install what demo and test need, and nothing else
     Setup,

@@ -117,7 +117,8 @@ fn is_below_libraries(file: &str) -> bool {
     })
 }
 
-fn on_path(program: &str) -> bool {
+/// Whether a program of this file name is on the path.
+pub fn on_path(program: &str) -> bool {
     let path = std::env::var_os("PATH").unwrap_or_default();
     std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
 }
