@@ -12,7 +12,8 @@
 //!
 //! [`Simulation`] makes sessions of observers whose thresholds are known; [`Plan`] foretells from them what a
 //! study will give, after [`check_reach`] refused what cannot be measured; [`replay_session`] compares a
-//! record, draw for draw and picture for picture, with what its seed leads to.
+//! record, draw for draw and picture for picture, with what its seed leads to; [`Export`] writes sessions as a
+//! BIDS dataset, for other laboratories' programs.
 //!
 //! # How well it does
 //!

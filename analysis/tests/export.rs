@@ -335,6 +335,13 @@ fn what_is_there_is_never_replaced_and_a_refusal_leaves_nothing() {
     assert!(again.contains("bids: holds") && again.contains("allowed is a folder that is empty"), "{again}");
     assert_eq!(files(&out, ""), before);
 
+    let file = folder.path().join("file");
+    fs::write(&file, "a letter").unwrap();
+    assert!(refusal(&sessions, &file).contains("file: is no folder"));
+    assert_eq!(fs::read_to_string(&file).unwrap(), "a letter");
+    let current = refusal(&sessions, Path::new("."));
+    assert!(current.contains("is the current folder"), "{current}");
+
     // The record goes on while it is exported: the dataset is not made.
     let export = Export::read(std::slice::from_ref(&sessions)).unwrap();
     let events = sessions.join("a").join(EVENTS_FILE);

@@ -5,6 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use scumble_psychophysics::{EVENTS_FILE, HEADER_FILE};
 use serde::Serialize;
 
@@ -39,16 +40,26 @@ pub(super) fn write(sessions: &[ExportedSession], out: &Path) -> Result<(), Erro
     written
 }
 
-/// Refuses a place where anything is.
+/// Refuses a place where anything is, and the current folder, which the dataset would be renamed over.
 fn check_free(out: &Path) -> Result<(), Error> {
+    let refuse = |found: String| {
+        let reason = format!("{found}; allowed is a folder that is empty or does not exist");
+        Err(Error::File { path: out.to_path_buf(), reason })
+    };
     if !out.exists() {
         return Ok(());
     }
+    if !out.is_dir() {
+        return refuse("is no folder".to_owned());
+    }
+    if std::env::current_dir().is_ok_and(|current| current == out) {
+        return refuse("is the current folder".to_owned());
+    }
     let mut entries = std::fs::read_dir(out).map_err(Error::io(out))?;
-    let Some(entry) = entries.next() else { return Ok(()) };
-    let found = entry.map_err(Error::io(out))?.file_name();
-    let reason = format!("holds {}; allowed is a folder that is empty or does not exist", found.to_string_lossy());
-    Err(Error::File { path: out.to_path_buf(), reason })
+    match entries.next() {
+        Some(entry) => refuse(format!("holds {}", entry.map_err(Error::io(out))?.file_name().to_string_lossy())),
+        None => Ok(()),
+    }
 }
 
 /// Renames the whole dataset to its place. An empty folder there is removed, which fails where it is not empty.
@@ -73,7 +84,7 @@ fn fill(folder: &Folder, sessions: &[ExportedSession]) -> Result<(), Error> {
 
     // By BIDS' rule of inheritance it describes the table of every session.
     folder.write_json("scans.json", &Sidecar(&session_columns()))?;
-    sessions.iter().try_for_each(|session| fill_session(folder, session))
+    sessions.par_iter().try_for_each(|session| fill_session(folder, session))
 }
 
 /// The session's row, its events and its record.
