@@ -47,6 +47,32 @@ pub(crate) fn paint(painter: &egui::Painter, picture: &Picture, centre: Pos2) ->
     rect
 }
 
+/// The rectangle, in points, of whole physical pixels that is nearest to `rect`.
+pub(crate) fn to_whole_pixels(rect: Rect, pixels_per_point: f32) -> Rect {
+    let whole = |place: Pos2| ((place.to_vec2() * pixels_per_point).round() / pixels_per_point).to_pos2();
+    let size_px = (rect.size() * pixels_per_point).round();
+    Rect::from_min_size(whole(rect.min), size_px / pixels_per_point)
+}
+
+/// Fills a rectangle of whole physical pixels, without a soft edge.
+pub(crate) fn fill(painter: &egui::Painter, rect: Rect, colour: Color32) {
+    let mut mesh = Mesh::default();
+    mesh.add_colored_rect(rect, colour);
+    painter.add(Shape::mesh(mesh));
+}
+
+/// Fills a rectangle of whole physical pixels with rows one physical pixel high, of two colours in turn.
+pub(crate) fn fill_rows(painter: &egui::Painter, rect: Rect, colours: [Color32; 2]) {
+    let scale = painter.pixels_per_point();
+    let mut mesh = Mesh::default();
+    for row in 0..(rect.height() * scale).round() as u32 {
+        let top = rect.top() + row as f32 / scale;
+        let row_rect = Rect::from_x_y_ranges(rect.x_range(), top..=top + 1.0 / scale);
+        mesh.add_colored_rect(row_rect, colours[row as usize % 2]);
+    }
+    painter.add(Shape::mesh(mesh));
+}
+
 /// The rectangle, in points, of `size_px` whole physical pixels around `centre`.
 fn pixel_rect(centre: Pos2, size_px: [usize; 2], pixels_per_point: f32) -> Rect {
     let size_px = Vec2::new(size_px[0] as f32, size_px[1] as f32);

@@ -14,9 +14,11 @@ pub(crate) const INK: Color32 = Color32::from_gray(12);
 /// Type that may be overlooked; 4.5 to 1 against the ground.
 pub(crate) const FAINT_INK: Color32 = Color32::from_gray(24);
 /// Buttons at rest.
-const RAISED: Color32 = Color32::from_gray(146);
+pub(crate) const RAISED: Color32 = Color32::from_gray(146);
 const HOVERED: Color32 = Color32::from_gray(160);
 const PRESSED: Color32 = Color32::from_gray(112);
+/// Where somebody types, and text to read closely.
+pub(crate) const FIELD: Color32 = Color32::from_gray(190);
 /// Empty part of the progress bar.
 pub(crate) const TRACK: Color32 = Color32::from_gray(112);
 
@@ -59,6 +61,11 @@ fn visuals() -> Visuals {
     visuals.panel_fill = GROUND;
     visuals.window_fill = GROUND;
     visuals.override_text_color = Some(INK);
+    visuals.extreme_bg_color = FIELD;
+    // What a line is for, before anything is typed: 4.5 to 1 against the field.
+    visuals.weak_text_color = Some(Color32::from_gray(68));
+    visuals.selection.bg_fill = HOVERED;
+    visuals.selection.stroke.color = INK;
     let widgets = &mut visuals.widgets;
     for (state, fill) in
         [(&mut widgets.inactive, RAISED), (&mut widgets.hovered, HOVERED), (&mut widgets.active, PRESSED)]

@@ -9,6 +9,7 @@ mod paused;
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod pictures;
 mod rest;
+mod setup;
 mod stopped;
 mod trial;
 mod unsaved;
@@ -18,6 +19,7 @@ pub(crate) use finished::finished;
 pub(crate) use instructions::{Examples, instructions};
 pub(crate) use paused::paused;
 pub(crate) use rest::rest;
+pub(crate) use setup::setup;
 pub(crate) use stopped::stopped;
 pub(crate) use trial::{too_small, trial};
 pub(crate) use unsaved::unsaved;

@@ -91,11 +91,6 @@ impl StudyFolder {
         self.unkept.is_some()
     }
 
-    /// Where the session of a participant lies.
-    pub(crate) fn session_directory(&self, participant: &str) -> PathBuf {
-        self.directory.join(participant)
-    }
-
     /// Makes the folder and puts the protocol into it, for every later participant; does nothing where
     /// it lies there already. To be called when a session begins.
     ///
@@ -159,7 +154,7 @@ mod tests {
         let study = StudyFolder::open(folder.path(), None).unwrap();
         assert_eq!(study.protocol(), &Protocol::two_alternative());
         assert!(study.is_new());
-        assert_eq!(study.session_directory("p07"), folder.path().join("p07"));
+        assert_eq!(study.directory(), folder.path());
     }
 
     #[test]

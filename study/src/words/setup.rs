@@ -3,7 +3,9 @@
 mod english;
 mod german;
 
-use crate::setup::FolderProblem;
+use scumble_psychophysics::{Consent, Demographics, Display, Task};
+
+use crate::setup::{Effort, FolderProblem, MeasuredDisplay, Page, Problem};
 
 pub(super) use english::ENGLISH;
 pub(super) use german::GERMAN;
@@ -12,7 +14,115 @@ pub(super) use german::GERMAN;
 ///
 /// A function takes what is to be said and gives whole sentences, since languages build them differently.
 pub(crate) struct SetupWords {
-    pub(crate) go_on: &'static str,
+    // Every page.
+    pub(crate) title: fn(Page) -> &'static str,
+    /// Number of the page and of all pages.
+    pub(crate) progress: fn(usize, usize) -> String,
+    pub(crate) keys: fn(Page) -> &'static str,
+    pub(crate) back: &'static str,
+    pub(crate) next: &'static str,
+    pub(crate) problem: fn(&Problem<'_>) -> String,
     /// Why a folder cannot be the folder of a study, and what is allowed.
     pub(crate) folder_problem: fn(&FolderProblem) -> String,
+
+    // Study.
+    pub(crate) folder: &'static str,
+    pub(crate) folder_hint: &'static str,
+    pub(crate) recent: &'static str,
+    pub(crate) protocol: &'static str,
+    pub(crate) task: fn(Task) -> &'static str,
+    pub(crate) effort: fn(&Effort) -> String,
+    pub(crate) protocol_new: &'static str,
+    pub(crate) protocol_kept: &'static str,
+    pub(crate) language: &'static str,
+    pub(crate) participant: &'static str,
+    pub(crate) participant_hint: &'static str,
+    pub(crate) participant_note: &'static str,
+    pub(crate) number: &'static str,
+    pub(crate) number_hint: &'static str,
+    pub(crate) monitor: &'static str,
+    pub(crate) monitor_named: fn(&Display) -> String,
+    pub(crate) interrupted: &'static str,
+    pub(crate) resume: &'static str,
+    pub(crate) repeat_round: &'static str,
+    pub(crate) discard: &'static str,
+
+    // Screen.
+    pub(crate) distance: &'static str,
+    pub(crate) distance_text: &'static str,
+    pub(crate) card: &'static str,
+    pub(crate) card_text: &'static str,
+    pub(crate) card_matches: &'static str,
+    pub(crate) not_measured: &'static str,
+    pub(crate) pixel_size: &'static str,
+    pub(crate) pixel_angle: &'static str,
+    pub(crate) texels: &'static str,
+    /// Millimetres.
+    pub(crate) distance_value: fn(Option<f64>) -> String,
+    /// Pixels per millimetre.
+    pub(crate) pixel_size_value: fn(Option<f64>) -> String,
+    /// Pixels per degree.
+    pub(crate) pixel_angle_value: fn(Option<f64>) -> String,
+    /// Texels in pixels and in arc minutes.
+    pub(crate) texels_value: fn(&[(f64, f64)]) -> String,
+
+    // Brightness.
+    pub(crate) brightness: &'static str,
+    pub(crate) gamma_text: &'static str,
+    pub(crate) grey: &'static str,
+    pub(crate) gamma_alike: &'static str,
+    pub(crate) not_checked: &'static str,
+    /// The level that was matched.
+    pub(crate) gamma_result: fn(Option<u8>) -> String,
+    pub(crate) table_text: fn(&[(u8, f64)]) -> String,
+    pub(crate) brightness_value: fn(&MeasuredDisplay) -> String,
+
+    // Room.
+    pub(crate) room: &'static str,
+    pub(crate) room_text: &'static str,
+    pub(crate) room_hint: &'static str,
+    pub(crate) room_note: &'static str,
+    pub(crate) room_next: &'static str,
+    pub(crate) room_value: fn(Option<&str>) -> String,
+    pub(crate) hand_over: &'static str,
+
+    // Consent.
+    pub(crate) consent: &'static str,
+    pub(crate) consent_text: &'static str,
+    pub(crate) has_agreed: &'static str,
+    pub(crate) agree: &'static str,
+    pub(crate) disagree: &'static str,
+    pub(crate) consent_value: fn(Option<&Consent>) -> String,
+    pub(crate) declined: &'static str,
+    pub(crate) close: &'static str,
+
+    // About you.
+    pub(crate) about: &'static str,
+    pub(crate) about_text: &'static str,
+    pub(crate) age: &'static str,
+    pub(crate) gender: &'static str,
+    /// Female, male, another one.
+    pub(crate) genders: [&'static str; 3],
+    pub(crate) hand: &'static str,
+    /// Left, right, either.
+    pub(crate) hands: [&'static str; 3],
+    pub(crate) vision: &'static str,
+    /// Normal, corrected, below normal.
+    pub(crate) visions: [&'static str; 3],
+    pub(crate) experience: &'static str,
+    /// None, some, an expert's.
+    pub(crate) experiences: [&'static str; 3],
+    pub(crate) no_answer: &'static str,
+    pub(crate) about_value: fn(Option<&Demographics>) -> String,
+
+    // Summary.
+    pub(crate) summary_text: &'static str,
+    pub(crate) summary_each_trial: &'static str,
+    pub(crate) unfinished: fn(Page) -> String,
+    pub(crate) start: &'static str,
+}
+
+/// The name that the list of a question holds for an answer, in the order of the header's enumeration.
+fn told(names: [&'static str; 3], answer: Option<usize>) -> Option<&'static str> {
+    answer.and_then(|index| names.get(index).copied())
 }

@@ -1,0 +1,318 @@
+//! A picture of every page, and what keys do on them.
+//!
+//! `UPDATE_SNAPSHOTS=true cargo test -p scumble-study` draws them anew. The comparison is kittest's own: a pixel
+//! fails where its colour is visibly another one, no pixel may fail. Type is rasterised on the CPU and every other
+//! edge lies on whole pixels or is feathered by the mesh, so that drivers differ in rounding alone.
+
+use std::path::Path;
+
+use eframe::egui::{self, Key, Modifiers, Vec2};
+use egui_kittest::kittest::Queryable as _;
+use egui_kittest::{Harness, SnapshotOptions};
+use scumble_psychophysics::{Display, Experience, Language, Protocol, Vision};
+
+use crate::session_folder::{Found, Interrupted};
+use crate::setup::{Given, Page, RecentFolders, Setup, SetupAction};
+use crate::theme;
+
+type Shown = (Setup, Vec<SetupAction>);
+
+fn given(folder: &Path) -> Given {
+    let monitor = |name: &str, [width_px, height_px]: [u32; 2], scale_factor| Display {
+        monitor: Some(name.to_owned()),
+        width_px,
+        height_px,
+        scale_factor,
+        refresh_hz: Some(60.0),
+        ..Display::default()
+    };
+    Given {
+        folder: folder.display().to_string(),
+        protocol: None,
+        participant: "p07".to_owned(),
+        participant_number: None,
+        language: Language::English,
+        monitors: vec![monitor("EIZO CG2700S", [2560, 1440], 1.0), monitor("Built-in", [1920, 1200], 1.25)],
+        monitor: 0,
+        px_per_degree: None,
+        recent: RecentFolders::default(),
+        find: Box::new(|study, code| Ok(Found::Free(study.join(code)))),
+    }
+}
+
+fn harness(setup: Setup, size: Vec2, pixels_per_point: f32) -> Harness<'static, Shown> {
+    let show = |ui: &mut egui::Ui, (setup, asked): &mut Shown| {
+        theme::dress_screen(ui);
+        asked.extend(super::setup(ui, setup));
+    };
+    Harness::builder()
+        .with_size(size)
+        .with_pixels_per_point(pixels_per_point)
+        .with_context_setup(theme::apply)
+        .build_ui_state(show, (setup, Vec::new()))
+}
+
+fn at_720(setup: Setup) -> Harness<'static, Shown> {
+    harness(setup, Vec2::new(1280.0, 720.0), 1.0)
+}
+
+/// A study folder with consent texts and a measured display. Paths are relative, so that the pages show the
+/// same ones on every machine.
+const MEASURED: &str = "tests/setup/measured";
+/// A study that is not there yet.
+const NEW: &str = "study1";
+
+fn new_study() -> Setup {
+    Setup::new(given(Path::new(NEW)))
+}
+
+/// A set-up after this many pages.
+fn after(mut setup: Setup, pages: usize) -> Setup {
+    (0..pages).for_each(|_| setup.next());
+    setup
+}
+
+/// A page after its first frames, in which the keyboard finds its place.
+fn settled(setup: Setup) -> Harness<'static, Shown> {
+    let mut harness = at_720(setup);
+    harness.run_steps(3);
+    harness
+}
+
+fn shot(setup: Setup, name: &str) {
+    let mut harness = settled(setup);
+    harness.snapshot(format!("setup_{name}"));
+}
+
+#[test]
+fn the_first_page_shows_a_new_study() {
+    shot(new_study(), "study");
+}
+
+#[test]
+fn the_first_page_offers_recent_studies_to_who_names_none() {
+    let mut recent = RecentFolders::default();
+    // Folders of this crate, so that they are there.
+    ["src", "tests", "tests/setup", MEASURED].iter().for_each(|folder| recent.remember_as(Path::new(folder)));
+    let setup = Setup::new(Given { recent, participant: String::new(), ..given(Path::new("")) });
+    shot(setup, "recent");
+}
+
+#[test]
+fn the_first_page_says_how_to_go_on_with_an_interrupted_session() {
+    let found = |directory| Interrupted { directory, age_secs: 725.0, trials: 83, trials_at_most: 240 };
+    let find = Box::new(move |study: &Path, code: &str| Ok(Found::Interrupted(found(study.join(code)))));
+    let setup = Setup::new(Given { find, ..given(Path::new(NEW)) });
+    shot(setup, "interrupted");
+}
+
+#[test]
+fn the_first_page_names_what_is_wrong() {
+    shot(Setup::new(given(Path::new("Cargo.toml"))), "problem");
+}
+
+#[test]
+fn the_screen_page_shows_card_and_sizes() {
+    let mut setup = after(new_study(), 1);
+    setup.calibration.distance_cm = "60".to_owned();
+    setup.calibration.set_matched(true, 1.0);
+    shot(setup, "screen");
+}
+
+#[test]
+fn the_brightness_page_shows_rows_beside_a_grey() {
+    let mut setup = after(new_study(), 2);
+    setup.gamma.lighten(46);
+    setup.gamma.matched = true;
+    shot(setup, "brightness");
+}
+
+#[test]
+fn the_brightness_page_says_what_to_do_with_a_display_that_is_not_srgb() {
+    let mut setup = after(new_study(), 2);
+    setup.gamma.lighten(32);
+    setup.gamma.matched = true;
+    shot(setup, "brightness_not_srgb");
+}
+
+#[test]
+fn the_brightness_page_shows_a_measured_curve() {
+    shot(after(Setup::new(given(Path::new(MEASURED))), 2), "brightness_measured");
+}
+
+#[test]
+fn the_room_page_says_what_to_write() {
+    shot(after(new_study(), 3), "room");
+}
+
+#[test]
+fn the_consent_page_shows_the_text() {
+    shot(after(Setup::new(given(Path::new(MEASURED))), 4), "consent");
+}
+
+#[test]
+fn who_does_not_agree_is_told_that_nothing_was_recorded() {
+    let mut setup = after(Setup::new(given(Path::new(MEASURED))), 4);
+    setup.decline();
+    shot(setup, "declined");
+}
+
+#[test]
+fn the_page_about_the_participant_may_stay_empty() {
+    let mut setup = after(new_study(), 4);
+    setup.about.vision = Some(Vision::Corrected);
+    shot(setup, "about");
+}
+
+/// A set-up in which something is measured and something is not, on its last page.
+fn filled_in(language: Language) -> Setup {
+    let mut setup = Setup::new(Given { language, ..given(Path::new(MEASURED)) });
+    setup.calibration.distance_cm = "60".to_owned();
+    setup.room = "Ceiling lamps off, blinds closed, no reflections.".to_owned();
+    let mut setup = after(setup, 4);
+    setup.agree(jiff::Timestamp::from_second(1_800_000_000).unwrap());
+    setup.about.age = "27".to_owned();
+    setup.about.graphics_experience = Some(Experience::Some);
+    after(setup, 1)
+}
+
+#[test]
+fn the_summary_shows_what_will_be_recorded_and_what_is_missing() {
+    shot(filled_in(Language::English), "summary");
+}
+
+#[test]
+fn the_first_page_fits_the_german_words() {
+    shot(Setup::new(Given { language: Language::German, ..given(Path::new(NEW)) }), "study_german");
+}
+
+#[test]
+fn the_summary_fits_the_german_words() {
+    shot(filled_in(Language::German), "summary_german");
+}
+
+#[test]
+fn a_screen_of_3840_by_2160_has_larger_type_and_the_same_page() {
+    let mut setup = after(new_study(), 1);
+    setup.calibration.distance_cm = "60".to_owned();
+    let mut harness = harness(setup, Vec2::new(3840.0, 2160.0), 1.0);
+    harness.run();
+    let picture = harness.render().unwrap();
+    let quarter = image::imageops::resize(&picture, 960, 540, image::imageops::FilterType::Triangle);
+    if let Err(error) = egui_kittest::try_image_snapshot(&quarter, "setup_screen_4k") {
+        panic!("{error}");
+    }
+}
+
+#[test]
+fn a_picture_with_another_letter_fails_the_comparison() {
+    if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
+        return; // The comparison would write its own answer.
+    }
+    let known = tempfile::tempdir().unwrap();
+    let name = "setup_study.png";
+    std::fs::copy(Path::new("tests/snapshots").join(name), known.path().join(name)).unwrap();
+    let options = SnapshotOptions::new().output_path(known.path());
+    for (code, is_known) in [("p07", true), ("p01", false)] {
+        let mut harness = settled(Setup::new(Given { participant: code.to_owned(), ..given(Path::new(NEW)) }));
+        let picture = harness.render().unwrap();
+        assert_eq!(egui_kittest::try_image_snapshot_options(&picture, "setup_study", &options).is_ok(), is_known);
+    }
+}
+
+#[test]
+fn rows_are_physical_pixels_and_the_grey_is_the_level_at_any_scale_factor() {
+    for scale in [1.0, 1.25, 1.5, 2.0] {
+        let mut setup = after(new_study(), 2);
+        setup.gamma.lighten(46);
+        let level = setup.gamma.level();
+        let mut harness = harness(setup, Vec2::new(1280.0, 720.0), scale);
+        harness.run();
+        let picture = harness.render().unwrap();
+        let grey = |x: u32, y: u32| picture.get_pixel(x, y).0[0];
+        // Down a column through the rows, and one through the grey.
+        let [rows_x, grey_x] = [200.0, 520.0].map(|x| (x * scale) as u32);
+        let [top, bottom] = [150.0, 350.0].map(|y| (y * scale) as u32);
+        let alternate = (top..bottom).all(|y| [grey(rows_x, y), grey(rows_x, y + 1)].iter().sum::<u8>() == 255);
+        assert!(alternate, "rows at {scale}: {:?}", (top..top + 9).map(|y| grey(rows_x, y)).collect::<Vec<_>>());
+        assert!((top..bottom).all(|y| grey(grey_x, y) == level), "grey at {scale}");
+    }
+}
+
+fn press(harness: &mut Harness<'static, Shown>, keys: &[Key]) {
+    for key in keys {
+        harness.key_press(*key);
+        harness.step();
+    }
+}
+
+#[test]
+fn the_keyboard_alone_reaches_the_start() {
+    let mut harness = at_720(new_study());
+    harness.run();
+    press(&mut harness, &[Key::Enter]);
+    assert_eq!(harness.state().0.page(), Page::Screen);
+    harness.event(egui::Event::Text("60".to_owned()));
+    harness.step();
+    press(&mut harness, &[Key::Tab, Key::Tab, Key::Tab]);
+    press(&mut harness, &[Key::ArrowRight, Key::ArrowRight, Key::Enter]);
+    assert_eq!(harness.state().0.calibration.px_per_mm(), Some(334.0 / 85.6));
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::ArrowLeft);
+    harness.step();
+    press(&mut harness, &[Key::Enter]);
+    assert_eq!(harness.state().0.calibration.px_per_mm(), Some(333.0 / 85.6));
+    assert_eq!(harness.state().0.calibration.distance_mm(), Ok(Some(600.0)));
+    harness.get_by_label("Next").focus();
+    harness.step();
+    press(&mut harness, &[Key::Enter]);
+    assert_eq!(harness.state().0.page(), Page::Brightness);
+    press(&mut harness, &[Key::ArrowUp, Key::ArrowDown, Key::ArrowUp, Key::Enter]);
+    assert_eq!(harness.state().0.gamma.matched_level(), Some(144));
+    for page in [Page::Room, Page::About, Page::Summary] {
+        let next =
+            harness.query_by_label("Next").unwrap_or_else(|| harness.get_by_label("Hand over to the participant"));
+        next.click();
+        harness.run();
+        assert_eq!(harness.state().0.page(), page);
+    }
+    press(&mut harness, &[Key::Enter]);
+    let Some(SetupAction::Done(ready)) = harness.state_mut().1.pop() else { panic!("not done") };
+    assert_eq!((ready.participant.as_str(), ready.study.protocol()), ("p07", &Protocol::two_alternative()));
+    assert_eq!(ready.measured.gamma_check_level, Some(144));
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn no_sequence_of_keys_leads_to_a_page_without_a_way_back(keys in proptest::collection::vec(0..KEYS.len(), 1..60)) {
+        let mut harness = at_720(Setup::new(given(Path::new(MEASURED))));
+        for key in keys {
+            press(&mut harness, &[KEYS[key]]);
+        }
+        for _ in 0..7 {
+            press(&mut harness, &[Key::Escape]);
+        }
+        proptest::prop_assert_eq!(harness.state().0.page(), Page::Study);
+    }
+}
+
+/// What a hand does that knows nothing of the pages, with the keys that move on among them often.
+const KEYS: [Key; 16] = [
+    Key::Tab,
+    Key::Tab,
+    Key::Tab,
+    Key::Enter,
+    Key::Enter,
+    Key::Enter,
+    Key::Space,
+    Key::ArrowUp,
+    Key::ArrowDown,
+    Key::ArrowLeft,
+    Key::ArrowRight,
+    Key::Escape,
+    Key::Backspace,
+    Key::PageDown,
+    Key::Num1,
+    Key::Y,
+];

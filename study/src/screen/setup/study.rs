@@ -1,0 +1,135 @@
+//! The first page: folder, protocol, language, participant, monitor.
+
+use eframe::egui;
+use egui::{Key, Ui};
+use scumble_psychophysics::Language;
+
+use super::{focus, widgets};
+use crate::session_folder::Found;
+use crate::setup::{Choice, OFFERED_PROTOCOLS, Setup, SetupAction};
+use crate::words::setup::SetupWords;
+
+/// Widths of the lines for a path, a code and a number.
+const PATH: f32 = 780.0;
+const CODE: f32 = 220.0;
+const NUMBER: f32 = 90.0;
+
+/// Keys of the recent folders, newest first.
+const KEYS: [Key; 8] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8];
+
+/// See the module.
+pub(super) fn study(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, is_new: bool) -> Option<SetupAction> {
+    ui.spacing_mut().item_spacing.y *= 0.75;
+    let asks_for_code = is_new && setup.study().opened().is_some();
+    widgets::named(ui, words.folder, |ui| folder(ui, setup, words));
+    if setup.study().opened().is_none() {
+        recent(ui, setup, words);
+    } else {
+        widgets::named(ui, words.protocol, |ui| protocol(ui, setup, words));
+    }
+    widgets::named(ui, words.language, |ui| {
+        let offered = [(Language::English, "English"), (Language::German, "Deutsch")];
+        if let Some(language) = widgets::choice(ui, setup.language(), &offered) {
+            setup.set_language(language);
+        }
+    });
+    widgets::named(ui, words.participant, |ui| participant(ui, setup, words, asks_for_code));
+    let moved = monitor(ui, setup, words);
+    interrupted(ui, setup, words).or(moved.map(SetupAction::Monitor))
+}
+
+fn folder(ui: &mut Ui, setup: &mut Setup, words: &SetupWords) {
+    if let Some(typed) = widgets::line(ui, words.folder, setup.study().folder(), words.folder_hint, PATH, false) {
+        setup.set_folder(typed);
+    }
+    let dropped = ui.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
+    if let Some(dropped) = dropped {
+        setup.pick_folder(&dropped);
+    }
+}
+
+/// Folders to pick by their buttons, or by their numbers while nothing is typed into.
+fn recent(ui: &mut Ui, setup: &mut Setup, words: &SetupWords) {
+    let mut picked = None;
+    if !setup.recent().is_empty() {
+        widgets::named(ui, words.recent, |ui| {
+            ui.spacing_mut().item_spacing.y *= 0.5;
+            ui.spacing_mut().button_padding.y *= 0.5;
+            for (index, (folder, key)) in setup.recent().iter().zip(KEYS).enumerate() {
+                let clicked = ui.button(format!("{}   {}", index + 1, folder.display())).clicked();
+                if clicked || (focus::pressed(ui, key) && !ui.ctx().text_edit_focused()) {
+                    picked = Some(folder.clone());
+                }
+            }
+        });
+    }
+    if let Some(folder) = picked {
+        setup.pick_folder(&folder);
+    }
+}
+
+fn protocol(ui: &mut Ui, setup: &mut Setup, words: &SetupWords) {
+    if setup.study().offers_protocols() {
+        if let Some(name) =
+            widgets::choice(ui, setup.study().chosen_protocol(), &OFFERED_PROTOCOLS.map(|name| (name, name)))
+        {
+            setup.choose_protocol(name);
+        }
+    } else if let Some(opened) = setup.study().opened() {
+        ui.horizontal(|ui| ui.label(&opened.study.protocol().name));
+    }
+    let Some(opened) = setup.study().opened() else { return };
+    ui.label((words.task)(opened.study.protocol().task));
+    if let Some(effort) = &opened.effort {
+        ui.label((words.effort)(effort));
+    }
+    widgets::small(ui, if opened.study.is_new() { words.protocol_new } else { words.protocol_kept });
+}
+
+fn participant(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, takes_keyboard: bool) {
+    ui.horizontal(|ui| {
+        let code = setup.study().participant();
+        if let Some(typed) = widgets::line(ui, words.participant, code, words.participant_hint, CODE, takes_keyboard) {
+            setup.set_participant(typed);
+        }
+        if setup.study().number_matters() {
+            ui.label(words.number);
+            if let Some(typed) =
+                widgets::line(ui, words.number, setup.study().number(), words.number_hint, NUMBER, false)
+            {
+                setup.set_number(typed);
+            }
+        }
+    });
+    widgets::small(ui, words.participant_note);
+}
+
+fn monitor(ui: &mut Ui, setup: &mut Setup, words: &SetupWords) -> Option<usize> {
+    let (monitors, chosen) = setup.monitors();
+    if monitors.len() < 2 {
+        return None;
+    }
+    let names: Vec<String> = monitors.iter().map(words.monitor_named).collect();
+    let picked = widgets::named(ui, words.monitor, |ui| {
+        let radio = |(index, name): (usize, &String)| widgets::radio(ui, index == chosen, name).then_some(index);
+        names.iter().enumerate().filter_map(radio).last()
+    });
+    if let Some(index) = picked {
+        setup.set_monitor(index);
+    }
+    picked
+}
+
+fn interrupted(ui: &mut Ui, setup: &Setup, words: &SetupWords) -> Option<SetupAction> {
+    let Some(Found::Interrupted(session)) = setup.study().found() else { return None };
+    let offered =
+        [(Choice::Resume, words.resume), (Choice::RepeatRound, words.repeat_round), (Choice::Discard, words.discard)];
+    let chosen = widgets::named(ui, words.interrupted, |ui| {
+        ui.horizontal(|ui| {
+            let button = |(choice, name)| ui.button(name).clicked().then_some(choice);
+            offered.into_iter().filter_map(button).last()
+        })
+        .inner
+    });
+    chosen.map(|choice| SetupAction::Interrupted(session.directory.clone(), choice))
+}

@@ -1,0 +1,216 @@
+//! The first page's entries: which study, who takes part, on which monitor.
+
+use std::path::{Path, PathBuf};
+
+use jiff::Timestamp;
+use scumble_psychophysics::{Error, Language, Order, Protocol, SessionHeader, Software};
+
+use crate::session_folder::Found;
+
+use super::consent::{ConsentProblem, ConsentText};
+use super::effort::Effort;
+use super::luminance::LuminanceTable;
+use super::problem::Problem;
+use super::study_folder::{DEFAULT_PROTOCOL, FolderProblem, StudyFolder};
+
+/// The protocols that a new study can be given on the page, the default first.
+pub(crate) const OFFERED_PROTOCOLS: [&str; 3] = [DEFAULT_PROTOCOL, "yes-no", "published"];
+
+/// Says what the folder of a study holds under a participant's code: [`crate::session_folder::find`].
+pub(crate) type FindSession = Box<dyn Fn(&Path, &str) -> Result<Found, Error>>;
+
+/// A folder of a study with all that the set-up reads from it.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    pub(crate) study: StudyFolder,
+    pub(crate) effort: Option<Effort>,
+    pub(super) consent: Result<Option<ConsentText>, ConsentProblem>,
+    pub(super) luminance: Result<Option<LuminanceTable>, String>,
+}
+
+/// The entries, and what the disk says to them.
+pub(crate) struct StudyEntry {
+    folder: String,
+    /// From the command line; not to be changed on the page.
+    asked_protocol: Option<String>,
+    chosen_protocol: &'static str,
+    participant: String,
+    /// Number of the participant as it was typed; empty for the one at the end of the code.
+    number: String,
+    opened: Option<Result<Opened, FolderProblem>>,
+    /// `None` while there is no study or no code.
+    found: Option<Result<Found, Error>>,
+    find: FindSession,
+}
+
+impl StudyEntry {
+    pub(super) fn new(
+        folder: String,
+        asked_protocol: Option<String>,
+        participant: String,
+        number: Option<u32>,
+        find: FindSession,
+    ) -> Self {
+        let number = number.map_or_else(String::new, |number| number.to_string());
+        let chosen_protocol = DEFAULT_PROTOCOL;
+        let (opened, found) = (None, None);
+        Self { folder, asked_protocol, chosen_protocol, participant, number, opened, found, find }
+    }
+
+    /// The folder as it was typed.
+    pub(crate) fn folder(&self) -> &str {
+        &self.folder
+    }
+
+    /// The participant's code as it was typed.
+    pub(crate) fn participant(&self) -> &str {
+        &self.participant
+    }
+
+    /// The participant's number as it was typed.
+    pub(crate) fn number(&self) -> &str {
+        &self.number
+    }
+
+    /// The study, where the folder can be one.
+    pub(crate) fn opened(&self) -> Option<&Opened> {
+        self.opened.as_ref()?.as_ref().ok()
+    }
+
+    /// What lies under the participant's code, where that can be read.
+    pub(crate) fn found(&self) -> Option<&Found> {
+        self.found.as_ref()?.as_ref().ok()
+    }
+
+    /// Whether a protocol can still be chosen: for a new study, where the command line names none.
+    pub(crate) fn offers_protocols(&self) -> bool {
+        self.asked_protocol.is_none() && self.opened().is_some_and(|opened| opened.study.is_new())
+    }
+
+    /// The protocol chosen for a new study.
+    pub(crate) fn chosen_protocol(&self) -> &'static str {
+        self.chosen_protocol
+    }
+
+    /// Whether the participant's number decides anything.
+    pub(crate) fn number_matters(&self) -> bool {
+        self.opened().is_some_and(|opened| opened.study.protocol().schedule.order == Order::LatinSquare)
+    }
+
+    /// The number typed, else the one at the end of the code; `None` for what is no number.
+    pub(super) fn participant_number(&self, study: &StudyFolder) -> Option<u32> {
+        match self.number.trim() {
+            "" => Some(header_of(&self.participant, study.protocol()).participant_number),
+            typed => typed.parse().ok(),
+        }
+    }
+
+    pub(super) fn set_folder(&mut self, folder: String, language: Language) {
+        self.folder = folder;
+        self.look(language);
+    }
+
+    pub(super) fn set_participant(&mut self, code: String) {
+        self.participant = code;
+        self.look_for_session();
+    }
+
+    pub(super) fn set_number(&mut self, number: String) {
+        self.number = number;
+    }
+
+    pub(super) fn choose_protocol(&mut self, name: &'static str, language: Language) {
+        self.chosen_protocol = name;
+        self.look(language);
+    }
+
+    /// Reads everything anew from the disk.
+    pub(super) fn look(&mut self, language: Language) {
+        let before = self.opened.take().and_then(Result::ok);
+        let folder = path_of(&self.folder);
+        self.opened = (!self.folder.trim().is_empty()).then(|| self.open(&folder, language, before));
+        self.look_for_session();
+    }
+
+    fn open(&self, folder: &Path, language: Language, before: Option<Opened>) -> Result<Opened, FolderProblem> {
+        let mut study = StudyFolder::open(folder, self.asked_protocol.as_deref())?;
+        if self.asked_protocol.is_none() && study.is_new() {
+            study = StudyFolder::open(folder, Some(self.chosen_protocol))?;
+        }
+        // Simulated people need a moment: not for every letter of a code.
+        let same = before.filter(|before| before.study.protocol() == study.protocol());
+        let effort = same.map_or_else(|| Effort::of(study.protocol()), |before| before.effort);
+        let consent = ConsentText::read(folder, language);
+        let luminance = LuminanceTable::read(folder);
+        Ok(Opened { study, effort, consent, luminance })
+    }
+
+    fn look_for_session(&mut self) {
+        let opened = self.opened().filter(|opened| is_code(&self.participant, opened.study.protocol()));
+        self.found = opened.map(|opened| (self.find)(opened.study.directory(), &self.participant));
+    }
+
+    /// What keeps these entries from being a session's.
+    pub(super) fn problem(&self) -> Option<Problem<'_>> {
+        let opened = match &self.opened {
+            None => return Some(Problem::NoFolder),
+            Some(Err(problem)) => return Some(Problem::Folder(problem)),
+            Some(Ok(opened)) => opened,
+        };
+        if let Err(problem) = &opened.consent {
+            return Some(Problem::Consent(problem));
+        }
+        if let Err(problem) = &opened.luminance {
+            return Some(Problem::Luminance(problem));
+        }
+        if self.participant.is_empty() {
+            return Some(Problem::NoCode);
+        }
+        if !is_code(&self.participant, opened.study.protocol()) {
+            return Some(Problem::NotACode(&self.participant));
+        }
+        if self.participant_number(&opened.study).is_none() {
+            return Some(Problem::NotANumber(&self.number));
+        }
+        match self.found.as_ref()? {
+            Ok(Found::Free(_)) => None,
+            Ok(found) => Some(Problem::Session(found)),
+            Err(error) => Some(Problem::Damaged(error)),
+        }
+    }
+}
+
+/// The path that was typed; `~` is the user's own folder, as in a shell.
+fn path_of(typed: &str) -> PathBuf {
+    let typed = typed.trim();
+    match (typed.strip_prefix('~'), dirs::home_dir()) {
+        (Some(""), Some(home)) => home,
+        (Some(rest), Some(home)) if rest.starts_with(std::path::is_separator) => home.join(&rest[1..]),
+        _ => PathBuf::from(typed),
+    }
+}
+
+/// Whether a session header takes this code.
+fn is_code(code: &str, protocol: &Protocol) -> bool {
+    let checked = header_of(code, protocol).check();
+    !matches!(checked, Err(Error::Parameter { field, .. }) if field == "participant")
+}
+
+fn header_of(code: &str, protocol: &Protocol) -> SessionHeader {
+    let software = Software::of("scumble-study", env!("CARGO_PKG_VERSION"));
+    SessionHeader::new(code, protocol.clone(), 0, Timestamp::UNIX_EPOCH, software)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_may_begin_with_the_users_own_folder() {
+        let home = dirs::home_dir().unwrap();
+        assert_eq!(path_of(" ~/studies/one "), home.join("studies/one"));
+        assert_eq!(path_of("~"), home);
+        assert_eq!(path_of("~other/one"), PathBuf::from("~other/one"));
+        assert_eq!(path_of("one two"), PathBuf::from("one two"));
+    }
+}
