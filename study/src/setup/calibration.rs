@@ -11,7 +11,7 @@
 //! Pixels are taken to be square. The angle is that of the degree around the middle of the screen.
 
 /// Width and height of a card ID-1 in millimetres (ISO/IEC 7810).
-pub(crate) const CARD_MM: [f64; 2] = [85.6, 53.98];
+const CARD_MM: [f64; 2] = [85.6, 53.98];
 
 /// Widths of the outline in physical pixels: displays from 1.4 to 28 px per mm, a projection to a telephone.
 const CARD_WIDTH_PX: std::ops::RangeInclusive<u32> = 120..=2400;

@@ -2,8 +2,9 @@
 
 use scumble_psychophysics::{Experiment, Observer, ObserverModel, Protocol, rehearse};
 
-/// Simulated people; their number of trials has a standard deviation of a tenth of its mean.
-const PEOPLE: u32 = 3;
+/// Simulated people. The trials of one have a standard deviation of 8 % of their mean under each shipped protocol,
+/// so that the mean is known to 2 %, and all of them take a fifth of a second.
+const PEOPLE: u32 = 16;
 
 /// Duration of a trial with its empty screen: what `scumble-analysis plan` assumes.
 const SECS_PER_TRIAL: f64 = 5.0;
@@ -15,7 +16,7 @@ pub(crate) struct Effort {
     pub(crate) rounds: usize,
     /// Interleaved staircases of a round.
     pub(crate) staircases: usize,
-    /// Trials with practice that a session has on average.
+    /// Trials with practice that a session has on average, to tens: as exactly as they are known.
     pub(crate) trials: u32,
     /// Minutes that they take on average, without rests.
     pub(crate) minutes: f64,
@@ -32,7 +33,7 @@ impl Effort {
             Ok(experiment.progress().answered + protocol.practice.ratios.len() as u32)
         };
         let all = (1..=PEOPLE).map(trials_of).sum::<Result<u32, _>>().ok()?;
-        let trials = (f64::from(all) / f64::from(PEOPLE)).round() as u32;
+        let trials = 10 * (f64::from(all) / f64::from(10 * PEOPLE)).round() as u32;
         let rounds = protocol.rounds().len();
         let staircases = protocol.all_conditions().len() * protocol.staircase.prior_ratios.len() / rounds.max(1);
         Some(Self { rounds, staircases, trials, minutes: f64::from(trials) * SECS_PER_TRIAL / 60.0 })
@@ -47,7 +48,9 @@ mod tests {
     fn the_default_takes_4_rounds_of_3_staircases_and_some_20_minutes() {
         let effort = Effort::of(&Protocol::two_alternative()).unwrap();
         assert_eq!((effort.rounds, effort.staircases), (4, 3));
-        assert!((15.0..25.0).contains(&effort.minutes), "{effort:?}");
+        // The protocol's own comment: some 240 trials and 8 of practice, 20 minutes.
+        assert!((240..=260).contains(&effort.trials), "{effort:?}");
+        assert!((20.0..=22.0).contains(&effort.minutes), "{effort:?}");
     }
 
     #[test]

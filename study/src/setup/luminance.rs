@@ -13,7 +13,7 @@ use std::path::Path;
 use scumble_stimuli::Transfer;
 
 /// Name of the table in the folder of a study.
-pub(crate) const LUMINANCE_FILE: &str = "luminance.csv";
+const LUMINANCE_FILE: &str = "luminance.csv";
 
 const COLUMNS: &str = "level,luminance_cd_m2";
 

@@ -6,7 +6,7 @@ use scumble_psychophysics::{Protocol, Vision};
 
 use super::*;
 use crate::session_folder::Interrupted;
-use crate::setup::{FolderProblem, PROTOCOL_FILE};
+use crate::setup::study_folder::{FolderProblem, PROTOCOL_FILE};
 
 /// A set-up for a folder and a code in which `find` says what lies under every code.
 fn setup(folder: &Path, participant: &str, find: FindSession) -> Setup {

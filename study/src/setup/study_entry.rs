@@ -38,6 +38,8 @@ pub(crate) struct StudyEntry {
     /// Number of the participant as it was typed; empty for the one at the end of the code.
     number: String,
     opened: Option<Result<Opened, FolderProblem>>,
+    /// The last protocol and what it asks for: simulated people need a moment, too long for every letter.
+    effort: Option<(Protocol, Option<Effort>)>,
     /// `None` while there is no study or no code.
     found: Option<Result<Found, Error>>,
     find: FindSession,
@@ -53,8 +55,8 @@ impl StudyEntry {
     ) -> Self {
         let number = number.map_or_else(String::new, |number| number.to_string());
         let chosen_protocol = DEFAULT_PROTOCOL;
-        let (opened, found) = (None, None);
-        Self { folder, asked_protocol, chosen_protocol, participant, number, opened, found, find }
+        let (opened, effort, found) = (None, None, None);
+        Self { folder, asked_protocol, chosen_protocol, participant, number, opened, effort, found, find }
     }
 
     /// The folder as it was typed.
@@ -126,23 +128,27 @@ impl StudyEntry {
 
     /// Reads everything anew from the disk.
     pub(super) fn look(&mut self, language: Language) {
-        let before = self.opened.take().and_then(Result::ok);
         let folder = path_of(&self.folder);
-        self.opened = (!self.folder.trim().is_empty()).then(|| self.open(&folder, language, before));
+        self.opened = (!self.folder.trim().is_empty()).then(|| self.open(&folder, language));
         self.look_for_session();
     }
 
-    fn open(&self, folder: &Path, language: Language, before: Option<Opened>) -> Result<Opened, FolderProblem> {
+    fn open(&mut self, folder: &Path, language: Language) -> Result<Opened, FolderProblem> {
         let mut study = StudyFolder::open(folder, self.asked_protocol.as_deref())?;
         if self.asked_protocol.is_none() && study.is_new() {
             study = StudyFolder::open(folder, Some(self.chosen_protocol))?;
         }
-        // Simulated people need a moment: not for every letter of a code.
-        let same = before.filter(|before| before.study.protocol() == study.protocol());
-        let effort = same.map_or_else(|| Effort::of(study.protocol()), |before| before.effort);
+        let effort = self.effort_of(study.protocol());
         let consent = ConsentText::read(folder, language);
         let luminance = LuminanceTable::read(folder);
         Ok(Opened { study, effort, consent, luminance })
+    }
+
+    fn effort_of(&mut self, protocol: &Protocol) -> Option<Effort> {
+        match &self.effort {
+            Some((known, effort)) if known == protocol => *effort,
+            _ => self.effort.insert((protocol.clone(), Effort::of(protocol))).1,
+        }
     }
 
     fn look_for_session(&mut self) {

@@ -14,10 +14,10 @@ use scumble_psychophysics::Protocol;
 use crate::words;
 
 /// Name of the protocol's file in the folder of a study.
-pub(crate) const PROTOCOL_FILE: &str = "protocol.toml";
+pub(super) const PROTOCOL_FILE: &str = "protocol.toml";
 
 /// The protocol of a new study for which none was asked.
-pub(crate) const DEFAULT_PROTOCOL: &str = "two-alternative";
+pub(super) const DEFAULT_PROTOCOL: &str = "two-alternative";
 
 /// A study on disk, or one that is on disk once its first session begins.
 #[derive(Clone, Debug, PartialEq)]

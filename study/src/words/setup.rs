@@ -38,6 +38,8 @@ pub(crate) struct SetupWords {
     pub(crate) participant: &'static str,
     pub(crate) participant_hint: &'static str,
     pub(crate) participant_note: &'static str,
+    /// Code and number, where the number decides anything.
+    pub(crate) participant_value: fn(&str, Option<u32>) -> String,
     pub(crate) number: &'static str,
     pub(crate) number_hint: &'static str,
     pub(crate) monitor: &'static str,

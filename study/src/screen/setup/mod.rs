@@ -7,13 +7,18 @@ mod focus;
 mod frame;
 mod room;
 mod screen;
-#[cfg(test)]
-mod snapshots;
 mod study;
 mod summary;
 mod widgets;
 
-use eframe::egui::{self, Ui};
+#[cfg(test)]
+mod hands;
+#[cfg(test)]
+mod snapshots;
+#[cfg(test)]
+mod testing;
+
+use eframe::egui::Ui;
 use jiff::Timestamp;
 
 use crate::setup::{Page, Setup, SetupAction};

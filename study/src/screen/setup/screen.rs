@@ -67,11 +67,11 @@ fn card(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, scale_factor: f64) {
     let [width_px, height_px] = calibration.card_px(scale_factor).map(|side| side as f32 / ui.pixels_per_point());
     let rect =
         pixels::to_whole_pixels(Rect::from_min_size(room.min, Vec2::new(width_px, height_px)), ui.pixels_per_point());
-    let response = ui.allocate_rect(rect, Sense::click_and_drag()).on_hover_cursor(CursorIcon::ResizeHorizontal);
+    let response = ui.allocate_rect(rect, Sense::drag()).on_hover_cursor(CursorIcon::ResizeHorizontal);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, words.card));
     paint(ui, rect);
 
-    if response.clicked() || response.drag_started() {
+    if response.drag_started() {
         response.request_focus();
     }
     let dragged_px = (response.drag_delta().x * ui.pixels_per_point()).round() as i32;

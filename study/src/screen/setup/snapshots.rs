@@ -1,4 +1,4 @@
-//! A picture of every page, and what keys do on them.
+//! A picture of every page.
 //!
 //! `UPDATE_SNAPSHOTS=true cargo test -p scumble-study` draws them anew. The comparison is kittest's own: a pixel
 //! fails where its colour is visibly another one, no pixel may fail. Type is rasterised on the CPU and every other
@@ -6,78 +6,13 @@
 
 use std::path::Path;
 
-use eframe::egui::{self, Key, Modifiers, Vec2};
-use egui_kittest::kittest::Queryable as _;
-use egui_kittest::{Harness, SnapshotOptions};
-use scumble_psychophysics::{Display, Experience, Language, Protocol, Vision};
+use eframe::egui::Vec2;
+use egui_kittest::SnapshotOptions;
+use scumble_psychophysics::{Experience, Language, Vision};
 
-use crate::session_folder::{Found, Interrupted};
-use crate::setup::{Given, Page, RecentFolders, Setup, SetupAction};
-use crate::theme;
-
-type Shown = (Setup, Vec<SetupAction>);
-
-fn given(folder: &Path) -> Given {
-    let monitor = |name: &str, [width_px, height_px]: [u32; 2], scale_factor| Display {
-        monitor: Some(name.to_owned()),
-        width_px,
-        height_px,
-        scale_factor,
-        refresh_hz: Some(60.0),
-        ..Display::default()
-    };
-    Given {
-        folder: folder.display().to_string(),
-        protocol: None,
-        participant: "p07".to_owned(),
-        participant_number: None,
-        language: Language::English,
-        monitors: vec![monitor("EIZO CG2700S", [2560, 1440], 1.0), monitor("Built-in", [1920, 1200], 1.25)],
-        monitor: 0,
-        px_per_degree: None,
-        recent: RecentFolders::default(),
-        find: Box::new(|study, code| Ok(Found::Free(study.join(code)))),
-    }
-}
-
-fn harness(setup: Setup, size: Vec2, pixels_per_point: f32) -> Harness<'static, Shown> {
-    let show = |ui: &mut egui::Ui, (setup, asked): &mut Shown| {
-        theme::dress_screen(ui);
-        asked.extend(super::setup(ui, setup));
-    };
-    Harness::builder()
-        .with_size(size)
-        .with_pixels_per_point(pixels_per_point)
-        .with_context_setup(theme::apply)
-        .build_ui_state(show, (setup, Vec::new()))
-}
-
-fn at_720(setup: Setup) -> Harness<'static, Shown> {
-    harness(setup, Vec2::new(1280.0, 720.0), 1.0)
-}
-
-/// A study folder with consent texts and a measured display. Paths are relative, so that the pages show the
-/// same ones on every machine.
-const MEASURED: &str = "tests/setup/measured";
-/// A study that is not there yet.
-const NEW: &str = "study1";
-
-fn new_study() -> Setup {
-    Setup::new(given(Path::new(NEW)))
-}
-
-/// A set-up after this many pages.
-fn after(mut setup: Setup, pages: usize) -> Setup {
-    (0..pages).for_each(|_| setup.next());
-    setup
-}
-
-/// A page after its first frames, in which the keyboard finds its place.
-fn settled(setup: Setup) -> Harness<'static, Shown> {
-    let mut harness = at_720(setup);
-    harness.run_steps(3);
-    harness
-}
+use super::testing::*;
+use crate::session_folder::Found;
+use crate::setup::{Given, RecentFolders, Setup};
 
 fn shot(setup: Setup, name: &str) {
     let mut harness = settled(setup);
@@ -100,8 +35,7 @@ fn the_first_page_offers_recent_studies_to_who_names_none() {
 
 #[test]
 fn the_first_page_says_how_to_go_on_with_an_interrupted_session() {
-    let found = |directory| Interrupted { directory, age_secs: 725.0, trials: 83, trials_at_most: 240 };
-    let find = Box::new(move |study: &Path, code: &str| Ok(Found::Interrupted(found(study.join(code)))));
+    let find = Box::new(|study: &Path, code: &str| Ok(Found::Interrupted(interrupted(study.join(code)))));
     let setup = Setup::new(Given { find, ..given(Path::new(NEW)) });
     shot(setup, "interrupted");
 }
@@ -238,81 +172,3 @@ fn rows_are_physical_pixels_and_the_grey_is_the_level_at_any_scale_factor() {
         assert!((top..bottom).all(|y| grey(grey_x, y) == level), "grey at {scale}");
     }
 }
-
-fn press(harness: &mut Harness<'static, Shown>, keys: &[Key]) {
-    for key in keys {
-        harness.key_press(*key);
-        harness.step();
-    }
-}
-
-#[test]
-fn the_keyboard_alone_reaches_the_start() {
-    let mut harness = at_720(new_study());
-    harness.run();
-    press(&mut harness, &[Key::Enter]);
-    assert_eq!(harness.state().0.page(), Page::Screen);
-    harness.event(egui::Event::Text("60".to_owned()));
-    harness.step();
-    press(&mut harness, &[Key::Tab, Key::Tab, Key::Tab]);
-    press(&mut harness, &[Key::ArrowRight, Key::ArrowRight, Key::Enter]);
-    assert_eq!(harness.state().0.calibration.px_per_mm(), Some(334.0 / 85.6));
-    harness.key_press_modifiers(Modifiers::SHIFT, Key::ArrowLeft);
-    harness.step();
-    press(&mut harness, &[Key::Enter]);
-    assert_eq!(harness.state().0.calibration.px_per_mm(), Some(333.0 / 85.6));
-    assert_eq!(harness.state().0.calibration.distance_mm(), Ok(Some(600.0)));
-    harness.get_by_label("Next").focus();
-    harness.step();
-    press(&mut harness, &[Key::Enter]);
-    assert_eq!(harness.state().0.page(), Page::Brightness);
-    press(&mut harness, &[Key::ArrowUp, Key::ArrowDown, Key::ArrowUp, Key::Enter]);
-    assert_eq!(harness.state().0.gamma.matched_level(), Some(144));
-    for page in [Page::Room, Page::About, Page::Summary] {
-        let next =
-            harness.query_by_label("Next").unwrap_or_else(|| harness.get_by_label("Hand over to the participant"));
-        next.click();
-        harness.run();
-        assert_eq!(harness.state().0.page(), page);
-    }
-    press(&mut harness, &[Key::Enter]);
-    let Some(SetupAction::Done(ready)) = harness.state_mut().1.pop() else { panic!("not done") };
-    assert_eq!((ready.participant.as_str(), ready.study.protocol()), ("p07", &Protocol::two_alternative()));
-    assert_eq!(ready.measured.gamma_check_level, Some(144));
-}
-
-proptest::proptest! {
-    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(24))]
-
-    #[test]
-    fn no_sequence_of_keys_leads_to_a_page_without_a_way_back(keys in proptest::collection::vec(0..KEYS.len(), 1..60)) {
-        let mut harness = at_720(Setup::new(given(Path::new(MEASURED))));
-        for key in keys {
-            press(&mut harness, &[KEYS[key]]);
-        }
-        for _ in 0..7 {
-            press(&mut harness, &[Key::Escape]);
-        }
-        proptest::prop_assert_eq!(harness.state().0.page(), Page::Study);
-    }
-}
-
-/// What a hand does that knows nothing of the pages, with the keys that move on among them often.
-const KEYS: [Key; 16] = [
-    Key::Tab,
-    Key::Tab,
-    Key::Tab,
-    Key::Enter,
-    Key::Enter,
-    Key::Enter,
-    Key::Space,
-    Key::ArrowUp,
-    Key::ArrowDown,
-    Key::ArrowLeft,
-    Key::ArrowRight,
-    Key::Escape,
-    Key::Backspace,
-    Key::PageDown,
-    Key::Num1,
-    Key::Y,
-];

@@ -30,7 +30,8 @@ pub(super) fn summary(ui: &mut Ui, setup: &Setup, words: &SetupWords) {
     fact(words.folder, ready.study.directory().display().to_string(), false);
     fact(words.protocol, protocol.name.clone(), false);
     fact(words.language, language.to_owned(), false);
-    fact(words.participant, ready.participant.clone(), false);
+    let number = setup.study().number_matters().then_some(ready.participant_number);
+    fact(words.participant, (words.participant_value)(&ready.participant, number), false);
     if let Some(monitor) = monitor {
         fact(words.monitor, monitor, false);
     }

@@ -32,6 +32,10 @@ pub(in crate::words) const ENGLISH: SetupWords = SetupWords {
     participant: "Participant's code",
     participant_hint: "for example p07",
     participant_note: "A code, never a name: 1 to 16 letters, digits, - and _.",
+    participant_value: |code, number| match number {
+        Some(number) => format!("{code}, number {number}"),
+        None => code.to_owned(),
+    },
     number: "number for the order of rounds",
     number_hint: "from the code",
     monitor: "Monitor",

@@ -32,6 +32,10 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
     participant: "Code der Person",
     participant_hint: "zum Beispiel p07",
     participant_note: "Ein Code, nie ein Name: 1 bis 16 Buchstaben, Ziffern, - und _.",
+    participant_value: |code, number| match number {
+        Some(number) => format!("{code}, Nummer {number}"),
+        None => code.to_owned(),
+    },
     number: "Nummer für die Folge der Runden",
     number_hint: "aus dem Code",
     monitor: "Bildschirm",
@@ -234,7 +238,7 @@ fn folder_problem(problem: &FolderProblem) -> String {
 fn effort(effort: &Effort) -> String {
     let Effort { rounds, staircases, trials, minutes } = effort;
     format!(
-        "{rounds} Runden mit je {staircases} Treppen: etwa {trials} Durchgänge, {minutes:.0} Minuten und die Pausen."
+        "{rounds} Runden mit je {staircases} Treppenverfahren: etwa {trials} Durchgänge, {minutes:.0} Minuten und die Pausen."
     )
 }
 
