@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     /// Continue the participant's interrupted session with its own protocol and seed; or repeat the
     /// round that was under way; or discard the session and begin another
     #[arg(long, value_name = "POLICY", num_args = 0..=1, default_missing_value = "continue")]
-    #[arg(requires = "participant")]
+    #[arg(requires = "participant", conflicts_with_all = ["seed", "protocol"])]
     pub(crate) resume: Option<ResumePolicy>,
 
     /// Language of the participant's screen: en, de

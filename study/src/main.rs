@@ -24,13 +24,15 @@ use std::cell::RefCell;
 use std::process::ExitCode;
 use std::rc::Rc;
 
+use anyhow::Context;
 use clap::Parser;
 use eframe::egui;
-use scumble_psychophysics::{Observer, Protocol};
+use scumble_psychophysics::Observer;
 
 use crate::arguments::{Arguments, ResumePolicy};
 use crate::rehearsal::Rehearsal;
-use crate::session_folder::{Found, find};
+use crate::session_folder::{Found, Interrupted, find};
+use crate::setup::StudyFolder;
 use crate::sitting::Sitting;
 use crate::study::{Outcome, Study};
 
@@ -82,7 +84,9 @@ fn run(arguments: &Arguments) -> anyhow::Result<()> {
 /// The session that the command line asks for.
 fn sitting(arguments: &Arguments) -> anyhow::Result<Sitting> {
     let (study, code) = (arguments.study_folder(), arguments.participant_code());
-    match (find(&study, &code)?, arguments.resume) {
+    let found = find(&study, &code)
+        .with_context(|| format!("{} holds a session of {code} already that cannot be read", study.display()))?;
+    match (found, arguments.resume) {
         (Found::Interrupted(found), Some(ResumePolicy::Discard)) => {
             sitting::discard(&found.directory)?;
             fresh(arguments)
@@ -106,12 +110,14 @@ fn sitting(arguments: &Arguments) -> anyhow::Result<Sitting> {
 }
 
 fn fresh(arguments: &Arguments) -> anyhow::Result<Sitting> {
-    let (study, code) = (arguments.study_folder(), arguments.participant_code());
-    let protocol = Protocol::open(arguments.protocol.as_deref().unwrap_or("two-alternative"))?;
-    let header = arguments.header(&code, protocol)?;
-    match find(&study, &code)? {
-        Found::Free(directory) => Sitting::fresh(&directory, header),
-        found => anyhow::bail!("{}: the participant has another session: {found:?}", study.display()),
+    let (folder, code) = (arguments.study_folder(), arguments.participant_code());
+    let study = StudyFolder::open(&folder, arguments.protocol.as_deref())?;
+    let header = arguments.header(&code, study.protocol().clone())?;
+    match find(&folder, &code)? {
+        Found::Free(directory) => Sitting::fresh(study, &directory, header),
+        Found::Interrupted(Interrupted { directory, .. }) | Found::Complete(directory) => {
+            anyhow::bail!("{} holds a session already", directory.display())
+        }
     }
 }
 

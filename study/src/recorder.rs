@@ -6,12 +6,16 @@
 
 use std::path::{Path, PathBuf};
 
-use scumble_psychophysics::{EVENTS_FILE, Error, Event, HEADER_FILE, Session, SessionHeader, SessionWriter};
+use scumble_psychophysics::{Event, Session, SessionHeader, SessionWriter};
+
+use crate::setup::StudyFolder;
 
 /// A session that is planned or being written.
 pub(crate) struct Recorder {
     directory: PathBuf,
     header: SessionHeader,
+    /// The folder of a fresh session's study, which gets the protocol when the session begins.
+    study: Option<StudyFolder>,
     /// In order; those from `saved` on wait for the disk.
     events: Vec<Event>,
     saved: usize,
@@ -22,21 +26,14 @@ pub(crate) struct Recorder {
 }
 
 impl Recorder {
-    /// A fresh session; refuses a directory that holds one.
-    pub(crate) fn plan(directory: &Path, header: SessionHeader) -> anyhow::Result<Self> {
-        let exists = [HEADER_FILE, EVENTS_FILE].iter().any(|file| directory.join(file).exists());
-        anyhow::ensure!(
-            !exists,
-            "{} holds a session already; --resume continues it, another --participant begins one",
-            directory.display()
-        );
+    /// A fresh session of a study in a folder that holds none.
+    pub(crate) fn plan(study: StudyFolder, directory: &Path, header: SessionHeader) -> anyhow::Result<Self> {
         // A folder that cannot be made is found here, and not in front of the participant.
-        if let Some(study) = directory.parent().filter(|study| !study.as_os_str().is_empty()) {
-            std::fs::create_dir_all(study).map_err(|error| {
-                anyhow::anyhow!("{}: cannot be the study's folder: {error}; allowed is a folder", study.display())
-            })?;
-        }
-        Ok(Self::new(directory, header, Vec::new(), None))
+        let folder = study.directory();
+        std::fs::create_dir_all(folder).map_err(|error| {
+            anyhow::anyhow!("{}: cannot be the study's folder: {error}; allowed is a folder", folder.display())
+        })?;
+        Ok(Self { study: Some(study), ..Self::new(directory, header, Vec::new(), None) })
     }
 
     /// An interrupted session, and what it holds.
@@ -48,7 +45,8 @@ impl Recorder {
 
     fn new(directory: &Path, header: SessionHeader, events: Vec<Event>, writer: Option<SessionWriter>) -> Self {
         let (saved, has_begun) = (events.len(), writer.is_some());
-        Self { directory: directory.into(), header, events, saved, has_begun, writer, problem: None }
+        let directory = directory.into();
+        Self { directory, header, study: None, events, saved, has_begun, writer, problem: None }
     }
 
     /// Writes the header, as it is now, when the participant begins; nothing happens if it is on disk.
@@ -56,9 +54,9 @@ impl Recorder {
         if !self.has_begun {
             complete(&mut self.header);
             self.has_begun = true;
-            match SessionWriter::create(&self.directory, &self.header) {
+            match self.keep_protocol().and_then(|()| Ok(SessionWriter::create(&self.directory, &self.header)?)) {
                 Ok(writer) => self.writer = Some(writer),
-                Err(error) => self.fail(&error),
+                Err(error) => self.fail(error),
             }
         }
     }
@@ -73,7 +71,7 @@ impl Recorder {
         if let Some(writer) = &mut self.writer {
             match writer.append(&self.events[self.saved]) {
                 Ok(()) => self.saved += 1,
-                Err(error) => self.fail(&error),
+                Err(error) => self.fail(error.into()),
             }
         }
     }
@@ -83,13 +81,14 @@ impl Recorder {
         if self.problem.is_none() {
             return;
         }
-        match SessionWriter::recover(&self.directory, &self.header, &self.events) {
+        let (header, events) = (&self.header, &self.events);
+        match self.keep_protocol().and_then(|()| Ok(SessionWriter::recover(&self.directory, header, events)?)) {
             Ok(writer) => {
                 self.writer = Some(writer);
                 self.saved = self.events.len();
                 self.problem = None;
             }
-            Err(error) => self.fail(&error),
+            Err(error) => self.fail(error),
         }
     }
 
@@ -128,9 +127,92 @@ impl Recorder {
         &self.directory
     }
 
+    fn keep_protocol(&self) -> anyhow::Result<()> {
+        match &self.study {
+            Some(study) => Ok(study.keep_protocol()?),
+            None => Ok(()),
+        }
+    }
+
     /// The writer is of no use after an error: where its file stands is not known. Dropping it frees the lock.
-    fn fail(&mut self, error: &Error) {
+    fn fail(&mut self, error: anyhow::Error) {
         self.writer = None;
-        self.problem = Some(error.to_string());
+        self.problem = Some(format!("{error:#}"));
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+    use jiff::Timestamp;
+    use scumble_psychophysics::{Moment, Protocol, Software, read_session};
+
+    fn note(text: &str) -> Event {
+        Event::Note(Moment { at: Timestamp::now(), notes: vec![text.into()], interrupted_secs: None })
+    }
+
+    fn begin(study: &Path) -> (PathBuf, Recorder) {
+        let directory = study.join("p07");
+        let protocol = Protocol::two_alternative();
+        let header = SessionHeader::new("p07", protocol, 1, Timestamp::now(), Software::of("a test", "0"));
+        let folder = StudyFolder::open(study, None).unwrap();
+        let mut recorder = Recorder::plan(folder, &directory, header).unwrap();
+        recorder.begin(|header| header.room = Some("dim".into()));
+        recorder.append(note("one"));
+        assert_eq!(recorder.problem(), None);
+        (directory, recorder)
+    }
+
+    fn assert_holds_all(directory: &Path, recorder: &Recorder) {
+        assert_eq!((recorder.problem(), recorder.unsaved()), (None, &[][..]));
+        let session = read_session(directory).unwrap();
+        assert_eq!(session.events, recorder.events());
+        assert_eq!(session.header, *recorder.header());
+    }
+
+    #[test]
+    fn a_folder_that_is_gone_and_back_gets_what_waited_for_it() {
+        let study = tempfile::tempdir().unwrap();
+        let (directory, mut recorder) = begin(study.path());
+        let aside = study.path().join("aside");
+        std::fs::rename(&directory, &aside).unwrap();
+        recorder.append(note("two"));
+        recorder.append(note("three"));
+        assert!(recorder.problem().unwrap().contains("p07"), "{:?}", recorder.problem());
+        assert_eq!(recorder.unsaved().len(), 2);
+        std::fs::rename(&aside, &directory).unwrap();
+        recorder.retry();
+        assert_holds_all(&directory, &recorder);
+        recorder.append(note("four"));
+        assert_holds_all(&directory, &recorder);
+    }
+
+    #[test]
+    fn a_folder_that_is_deleted_is_written_anew_with_all_that_it_held() {
+        let study = tempfile::tempdir().unwrap();
+        let (directory, mut recorder) = begin(study.path());
+        std::fs::remove_dir_all(&directory).unwrap();
+        recorder.append(note("two"));
+        assert!(recorder.problem().is_some());
+        recorder.retry();
+        assert_holds_all(&directory, &recorder);
+    }
+
+    #[test]
+    fn another_session_in_its_place_is_left_alone() {
+        let study = tempfile::tempdir().unwrap();
+        let (directory, mut recorder) = begin(study.path());
+        std::fs::remove_dir_all(&directory).unwrap();
+        let (_, other) = begin(study.path());
+        let before = std::fs::read(directory.join(scumble_psychophysics::EVENTS_FILE)).unwrap();
+        drop(other);
+        recorder.append(note("two, which is longer than the other one"));
+        for _ in 0..2 {
+            assert!(recorder.problem().is_some());
+            recorder.retry();
+        }
+        assert_eq!(std::fs::read(directory.join(scumble_psychophysics::EVENTS_FILE)).unwrap(), before);
+        assert_eq!(recorder.unsaved().len(), 1);
     }
 }

@@ -53,3 +53,46 @@ pub(crate) fn find(study: &Path, code: &str) -> Result<Found, Error> {
     let (trials, trials_at_most) = (progress.trials, progress.trials_at_most);
     Ok(Found::Interrupted(Interrupted { directory, age_secs, trials, trials_at_most }))
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+    use crate::setup::StudyFolder;
+    use crate::sitting::{Sitting, discard};
+    use jiff::Timestamp;
+    use scumble_psychophysics::{SessionHeader, Software};
+
+    /// A session that begins in the folder that is free for it.
+    fn begin(study: &Path) -> (PathBuf, Sitting) {
+        let Found::Free(directory) = find(study, "p07").unwrap() else { panic!("the folder is taken") };
+        let folder = StudyFolder::open(study, None).unwrap();
+        let protocol = folder.protocol().clone();
+        let header = SessionHeader::new("p07", protocol, 1, Timestamp::now(), Software::of("a test", "0"));
+        let mut sitting = Sitting::fresh(folder, &directory, header).unwrap();
+        sitting.proceed(|| None).unwrap();
+        (directory, sitting)
+    }
+
+    #[test]
+    fn a_fresh_session_goes_behind_discarded_and_stopped_ones_and_never_over_one_that_counts() {
+        let root = tempfile::tempdir().unwrap();
+        let study = root.path().join("study");
+        let (first, sitting) = begin(&study);
+        assert_eq!(first, study.join("p07"));
+        drop(sitting);
+        let Found::Interrupted(found) = find(&study, "p07").unwrap() else { panic!("it can be continued") };
+        assert_eq!((found.directory.as_path(), found.trials), (first.as_path(), 0));
+        assert!(found.age_secs >= 0.0 && found.trials_at_most > 100);
+
+        discard(&first).unwrap();
+        let (second, mut sitting) = begin(&study);
+        assert_eq!(second, study.join("p07.2"));
+        sitting.stop().unwrap();
+        let (third, mut sitting) = begin(&study);
+        assert_eq!(third, study.join("p07.3"));
+        assert!(discard(&third).is_err(), "it is being written");
+        sitting.stop().unwrap();
+        assert_eq!(find(&study, "p08").unwrap(), Found::Free(study.join("p08")));
+    }
+}

@@ -12,6 +12,7 @@ use scumble_psychophysics::{Display, Event, Experiment, Moment, Reply, SessionHe
 use crate::arguments::ResumePolicy;
 use crate::clock::Clock;
 use crate::recorder::Recorder;
+use crate::setup::StudyFolder;
 
 /// A session of a participant, from its instructions to its end.
 pub(crate) struct Sitting {
@@ -33,18 +34,16 @@ struct Pause {
 }
 
 impl Sitting {
-    /// A session that nobody has begun; refuses a directory that holds one.
-    pub(crate) fn fresh(directory: &Path, header: SessionHeader) -> anyhow::Result<Self> {
+    /// A session that nobody has begun, for a folder of the study that holds none.
+    pub(crate) fn fresh(study: StudyFolder, directory: &Path, header: SessionHeader) -> anyhow::Result<Self> {
         let experiment = Experiment::new(header.protocol.clone(), header.seed, header.participant_number)?;
-        let recorder = Recorder::plan(directory, header)?;
+        let recorder = Recorder::plan(study, directory, header)?;
         Ok(Self { experiment, recorder, clock: Clock::start(), pause: None })
     }
 
     /// An interrupted session, paused.
     pub(crate) fn resume(directory: &Path, policy: ResumePolicy) -> anyhow::Result<Self> {
         let (recorder, session) = Recorder::reopen(directory)?;
-        anyhow::ensure!(!session.is_complete(), "{}: the session is complete", directory.display());
-        anyhow::ensure!(!session.is_closed(), "{}: the session was ended or discarded", directory.display());
         let experiment = session.replay()?;
         let (last_at, now) = (session.last_known_at(), Timestamp::now());
         let (clock, earlier_secs) = Clock::resume(session.header.started_at, last_at, now);
