@@ -142,13 +142,17 @@ impl Arguments {
     /// The header of a fresh session; the display is known once there is a window.
     pub(crate) fn header(&self, code: &str, protocol: Protocol) -> anyhow::Result<SessionHeader> {
         let software = Software::of("scumble-study", env!("CARGO_PKG_VERSION"));
-        let seed = self.seed.unwrap_or_else(|| self.started_at.as_microsecond().unsigned_abs());
-        let mut header = SessionHeader::new(code, protocol, seed, self.started_at, software);
+        let mut header = SessionHeader::new(code, protocol, self.seed(), self.started_at, software);
         header.participant_number = self.participant_number.unwrap_or(header.participant_number);
         header.language = Some(self.language);
         header.simulated_observer = self.rehearse;
         header.check()?;
         Ok(header)
+    }
+
+    /// The seed, as given, or the time.
+    pub(crate) fn seed(&self) -> u64 {
+        self.seed.unwrap_or_else(|| self.started_at.as_microsecond().unsigned_abs())
     }
 
     /// The participant's code, as given, or the time.

@@ -1,24 +1,29 @@
-//! The display that the window is on, as far as the system tells.
+//! The displays that there are, as far as the system tells.
 
 use scumble_psychophysics::Display;
 
 /// The display under the participant's window; `None` where the system names none.
 pub(crate) fn display(frame: &eframe::Frame) -> Option<Display> {
     let window = frame.winit_window()?;
-    let monitor = window.current_monitor()?;
-    let window_px = window.inner_size();
-    Some(Display {
+    let size = window.inner_size();
+    let (monitors, index) = monitors(frame);
+    let monitor = monitors.into_iter().nth(index)?;
+    Some(Display { scale_factor: window.scale_factor(), window_px: Some([size.width, size.height]), ..monitor })
+}
+
+/// Every monitor in the system's order, and the index of the one under the participant's window.
+pub(crate) fn monitors(frame: &eframe::Frame) -> (Vec<Display>, usize) {
+    let Some(window) = frame.winit_window() else { return (Vec::new(), 0) };
+    let current = window.current_monitor();
+    let index = window.available_monitors().position(|monitor| Some(monitor) == current).unwrap_or(0);
+    let monitors = window.available_monitors().map(|monitor| Display {
         monitor: monitor.name(),
         width_px: monitor.size().width,
         height_px: monitor.size().height,
-        scale_factor: window.scale_factor(),
+        scale_factor: monitor.scale_factor(),
         // Some systems say 0 where they do not know.
         refresh_hz: monitor.refresh_rate_millihertz().filter(|rate| *rate > 0).map(|rate| f64::from(rate) / 1000.0),
-        window_px: Some([window_px.width, window_px.height]),
-        px_per_degree: None,
-        px_per_mm: None,
-        viewing_distance_mm: None,
-        luminance_table: None,
-        gamma_check_level: None,
-    })
+        ..Display::default()
+    });
+    (monitors.collect(), index)
 }

@@ -8,36 +8,38 @@ mod arguments;
 mod clock;
 mod display;
 mod keys;
+mod outcome;
 mod pixels;
 mod presentation;
+mod program;
 mod recorder;
 mod rehearsal;
 mod screen;
 mod session_folder;
+mod session_view;
 mod setup;
 mod sitting;
-mod study;
 mod theme;
 mod words;
 
 use std::cell::RefCell;
+use std::path::Path;
 use std::process::ExitCode;
 use std::rc::Rc;
 
 use anyhow::Context;
 use clap::Parser;
 use eframe::egui;
-use scumble_psychophysics::Observer;
 
-use crate::arguments::{Arguments, ResumePolicy};
-use crate::rehearsal::Rehearsal;
-use crate::session_folder::{Found, Interrupted, find};
-use crate::setup::StudyFolder;
+use crate::arguments::Arguments;
+use crate::outcome::Outcome;
+use crate::program::Program;
+use crate::session_folder::{Found, find};
+use crate::setup::{MeasuredDisplay, StudyFolder};
 use crate::sitting::Sitting;
-use crate::study::{Outcome, Study};
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
+    match run(Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("scumble-study: {error:#}");
@@ -47,78 +49,77 @@ fn main() -> ExitCode {
 }
 
 /// Runs one session; success means that it is complete, or was ended on purpose, and on disk.
-fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let sitting = sitting(arguments)?;
-    let directory = sitting.recorder().directory().to_path_buf();
-    let rehearsal = match arguments.rehearse {
-        Some(model) => Some(Rehearsal::new(Observer::new(model, sitting.recorder().header().seed)?, arguments.speed)),
-        None => None,
-    };
-
+fn run(arguments: Arguments) -> anyhow::Result<()> {
     let outcome = Rc::new(RefCell::new(Outcome::default()));
-    let study = Study::new(sitting, rehearsal, arguments.px_per_degree, Rc::clone(&outcome));
+    let options = window_options(&arguments);
+    // What is wrong is found here, and not in front of the participant.
+    let program = if arguments.skips_setup() {
+        let (sitting, measured) = session(&arguments)?;
+        Program::with_session(arguments, sitting, measured, Rc::clone(&outcome))?
+    } else {
+        check_given(&arguments)?;
+        Program::with_setup(arguments, Rc::clone(&outcome))
+    };
     let create = move |context: &eframe::CreationContext<'_>| {
         theme::apply(&context.egui_ctx);
-        Ok(Box::new(study) as Box<dyn eframe::App>)
+        Ok(Box::new(program) as Box<dyn eframe::App>)
     };
-    eframe::run_native("Scumble study", window_options(arguments), Box::new(create))
+    eframe::run_native("Scumble study", options, Box::new(create))
         .map_err(|error| anyhow::anyhow!("no window: {error}"))?;
+    outcome.take().into_result()
+}
 
-    let how_to_resume = || {
-        let [data, code] = [directory.parent(), directory.file_name().map(AsRef::as_ref)]
-            .map(|part| part.map_or_else(String::new, |part| part.display().to_string()));
-        format!("continue with --data {data} --participant {code} --resume")
-    };
-    match &*outcome.borrow() {
-        Outcome::Complete => Ok(()),
-        Outcome::Interrupted => anyhow::bail!("not complete; {}", how_to_resume()),
-        Outcome::Stopped(problem) => anyhow::bail!("{problem}; {}", how_to_resume()),
-        Outcome::Unsaved { problem, lines } => anyhow::bail!(
-            "{problem}; these lines are missing at the end of {}:\n{}",
-            directory.display(),
-            lines.join("\n")
-        ),
+/// Refuses what the set-up would be given: another study's protocol, a name for a code, a complete session.
+fn check_given(arguments: &Arguments) -> anyhow::Result<()> {
+    let study = StudyFolder::open(&arguments.study_folder(), arguments.protocol.as_deref())?;
+    arguments.header(&arguments.participant_code(), study.protocol().clone())?;
+    match found(arguments)? {
+        Found::Complete(directory) => Err(complete(&directory)),
+        Found::Free(_) | Found::Interrupted(_) => Ok(()),
     }
 }
 
-/// The session that the command line asks for.
-fn sitting(arguments: &Arguments) -> anyhow::Result<Sitting> {
-    let (study, code) = (arguments.study_folder(), arguments.participant_code());
-    let found = find(&study, &code)
-        .with_context(|| format!("{} holds a session of {code} already that cannot be read", study.display()))?;
-    match (found, arguments.resume) {
-        (Found::Interrupted(found), Some(ResumePolicy::Discard)) => {
-            sitting::discard(&found.directory)?;
-            fresh(arguments)
+/// The session that the command line asks for, and what is known of its display.
+fn session(arguments: &Arguments) -> anyhow::Result<(Sitting, MeasuredDisplay)> {
+    let mut found_now = found(arguments)?;
+    if let (Found::Interrupted(interrupted), Some(policy)) = (&found_now, arguments.resume) {
+        match program::resume(&interrupted.directory, policy)? {
+            Some(sitting) => return Ok((sitting, MeasuredDisplay::default())),
+            None => found_now = found(arguments)?,
         }
-        (Found::Interrupted(found), Some(policy)) => Sitting::resume(&found.directory, policy),
-        (Found::Interrupted(found), None) => anyhow::bail!(
-            "{} holds a session already, interrupted after {} trials; --resume continues it, \
-             --resume discard begins another",
+    } else if let (Found::Free(directory), Some(_)) = (&found_now, arguments.resume) {
+        let directory = directory.display();
+        anyhow::bail!("{directory}: no session to continue; without --resume one begins there");
+    }
+    match found_now {
+        Found::Free(directory) => {
+            let study = StudyFolder::open(&arguments.study_folder(), arguments.protocol.as_deref())?;
+            let header = arguments.header(&arguments.participant_code(), study.protocol().clone())?;
+            let measured = MeasuredDisplay::of_study(&study, arguments.px_per_degree)?;
+            Ok((Sitting::fresh(study, &directory, header)?, measured))
+        }
+        Found::Interrupted(found) => anyhow::bail!(
+            "{} holds a session already, interrupted after {} trials; --resume continues it, --resume discard \
+             begins another",
             found.directory.display(),
             found.trials
         ),
-        (Found::Complete(directory), _) => anyhow::bail!(
-            "{} holds a session already, and it is complete; allowed is another --participant",
-            directory.display()
-        ),
-        (Found::Free(directory), Some(_)) => {
-            anyhow::bail!("{}: no session to continue; without --resume one begins there", directory.display())
-        }
-        (Found::Free(_), None) => fresh(arguments),
+        Found::Complete(directory) => Err(complete(&directory)),
     }
 }
 
-fn fresh(arguments: &Arguments) -> anyhow::Result<Sitting> {
+/// What the study's folder holds of the participant.
+fn found(arguments: &Arguments) -> anyhow::Result<Found> {
     let (folder, code) = (arguments.study_folder(), arguments.participant_code());
-    let study = StudyFolder::open(&folder, arguments.protocol.as_deref())?;
-    let header = arguments.header(&code, study.protocol().clone())?;
-    match find(&folder, &code)? {
-        Found::Free(directory) => Sitting::fresh(study, &directory, header),
-        Found::Interrupted(Interrupted { directory, .. }) | Found::Complete(directory) => {
-            anyhow::bail!("{} holds a session already", directory.display())
-        }
-    }
+    find(&folder, &code).with_context(|| {
+        let folder = folder.display();
+        format!("{folder} holds a session of {code} already that cannot be read; another --participant begins one")
+    })
+}
+
+fn complete(directory: &Path) -> anyhow::Error {
+    let directory = directory.display();
+    anyhow::anyhow!("{directory} holds a session already, and it is complete; allowed is another --participant")
 }
 
 fn window_options(arguments: &Arguments) -> eframe::NativeOptions {

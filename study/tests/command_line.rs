@@ -62,7 +62,7 @@ fn an_existing_session_is_never_overwritten() {
     std::fs::create_dir(folder.path().join("p01")).unwrap();
     let events = write(&folder.path().join("p01"), "events.jsonl", "kept\n");
     let data = folder.path().to_str().unwrap();
-    assert_refused(&["--data", data, "--participant", "p01"], &["p01", "holds a session", "--resume"]);
+    assert_refused(&["--data", data, "--participant", "p01"], &["p01", "holds a session", "--participant"]);
     assert_eq!(std::fs::read_to_string(events).unwrap(), "kept\n");
 }
 

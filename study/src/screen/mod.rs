@@ -8,6 +8,7 @@ mod paused;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod pictures;
+mod refused;
 mod rest;
 mod setup;
 mod stopped;
@@ -18,6 +19,7 @@ pub(crate) use feedback::feedback;
 pub(crate) use finished::finished;
 pub(crate) use instructions::{Examples, instructions};
 pub(crate) use paused::paused;
+pub(crate) use refused::refused;
 pub(crate) use rest::rest;
 pub(crate) use setup::setup;
 pub(crate) use stopped::stopped;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use scumble_psychophysics::{Consent, Demographics, Display, Language, SessionHeader, Software};
 
-use super::StudyFolder;
+use super::{LuminanceTable, StudyFolder};
 
 /// A set-up without problems.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +47,13 @@ pub(crate) struct MeasuredDisplay {
 }
 
 impl MeasuredDisplay {
+    /// What is known without the set-up pages: the table in the study's folder, which the error names, and the
+    /// pixels per degree that somebody gave.
+    pub(crate) fn of_study(study: &StudyFolder, px_per_degree: Option<f64>) -> anyhow::Result<Self> {
+        let table = LuminanceTable::read(study.directory()).map_err(anyhow::Error::msg)?;
+        Ok(Self { px_per_degree, luminance_table: table.map(|table| table.rows), ..Self::default() })
+    }
+
     /// What the system knows of the display, with what was measured.
     pub(crate) fn complete(self, display: Display) -> Display {
         let Self { px_per_mm, viewing_distance_mm, px_per_degree, luminance_table, gamma_check_level } = self;

@@ -65,6 +65,8 @@ pub(crate) struct ParticipantWords {
     /// Where the answers are.
     pub(crate) answers_are_in: fn(&str) -> String,
 
+    pub(crate) refused: &'static str,
+
     // What keeps the program from going on for a while.
     pub(crate) cannot_save: &'static str,
     pub(crate) kept_in_memory: &'static str,
@@ -138,6 +140,7 @@ pub(super) const ENGLISH: ParticipantWords = ParticipantWords {
     answers_are_in: |folder| {
         format!("The answers given so far are in {folder}. When the cause is removed, --resume goes on from there.")
     },
+    refused: "The session cannot begin",
     cannot_save: "Your last answer could not be saved yet",
     kept_in_memory: "It is not lost: the program keeps it and waits. Please call the person who runs the study.",
     tries_again: "The program tries again every two seconds and goes on by itself when it can.",
@@ -217,6 +220,7 @@ pub(super) const GERMAN: ParticipantWords = ParticipantWords {
             "Die bisherigen Antworten liegen in {folder}. Ist die Ursache behoben, geht es mit --resume dort weiter."
         )
     },
+    refused: "Die Sitzung kann nicht beginnen",
     cannot_save: "Ihre letzte Antwort konnte noch nicht gespeichert werden",
     kept_in_memory: "Sie ist nicht verloren: Das Programm behält sie und wartet. Bitte rufen Sie die Versuchsleitung.",
     tries_again: "Das Programm versucht es alle zwei Sekunden wieder und macht dann von selbst weiter.",

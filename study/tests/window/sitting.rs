@@ -65,7 +65,8 @@ impl<'a> Sitting<'a> {
         let file = folder.join("protocol.toml");
         std::fs::write(&file, protocol.to_toml().unwrap()).unwrap();
         let data = folder.join("study");
-        let common = ["--data", data.to_str().unwrap(), "--participant", "someone"].map(String::from).to_vec();
+        let common =
+            ["--data", data.to_str().unwrap(), "--participant", "someone", "--quick-start"].map(String::from).to_vec();
         let [seed_text, number] = [seed.to_string(), PARTICIPANT_NUMBER.to_string()];
         let fresh = ["--protocol", file.to_str().unwrap(), "--seed", &seed_text, "--participant-number", &number]
             .map(String::from);

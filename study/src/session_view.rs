@@ -1,45 +1,30 @@
-//! The program as eframe sees it: shows the stage, passes on what the participant did, and sees to
+//! A session on the participant's screen: shows the stage, passes on what the participant did, and sees to
 //! it that the answer is on disk before the next stage is drawn.
 
-use std::cell::RefCell;
-use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
-use scumble_psychophysics::{Answer, Display, Language, Stage};
+use scumble_psychophysics::{Answer, Language, Stage};
 
 use crate::display::display;
 use crate::keys;
+use crate::outcome::Outcome;
 use crate::presentation::{FIXATION, Presentation, Screen};
 use crate::rehearsal::{Move, Rehearsal, Scene};
 use crate::screen::{self, Action};
+use crate::setup::MeasuredDisplay;
 use crate::sitting::Sitting;
-use crate::theme;
 use crate::words::{Words, words};
 
 /// Between two attempts to write what the disk has refused.
 const RETRY: Duration = Duration::from_secs(2);
 
-/// How a session ended, for the exit status.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Outcome {
-    /// Every trial is answered, or the administrator ended the session, and all is on disk.
-    Complete,
-    /// The window was closed before.
-    #[default]
-    Interrupted,
-    /// The experiment or a picture refused to go on; in words.
-    Stopped(String),
-    /// The window was closed while the disk refused events: why, and the lines that are not in the record.
-    Unsaved { problem: String, lines: Vec<String> },
-}
-
-/// The running study.
-pub(crate) struct Study {
+/// The session as it is shown.
+pub(crate) struct SessionView {
     sitting: Sitting,
     words: &'static Words,
     rehearsal: Option<Rehearsal>,
-    px_per_degree: Option<f64>,
+    measured: MeasuredDisplay,
     /// What the pictures are shown on, once there is one to show.
     screen: Option<Screen>,
     presentation: Option<Presentation>,
@@ -47,35 +32,27 @@ pub(crate) struct Study {
     /// Something that the program cannot work around.
     fatal: Option<String>,
     retry_at: Instant,
-    outcome: Rc<RefCell<Outcome>>,
 }
 
-impl Study {
-    /// A session before its first frame. `outcome` is told how it ends.
-    pub(crate) fn new(
-        sitting: Sitting,
-        rehearsal: Option<Rehearsal>,
-        px_per_degree: Option<f64>,
-        outcome: Rc<RefCell<Outcome>>,
-    ) -> Self {
+impl SessionView {
+    /// A session before its first frame, on a display of which this was measured.
+    pub(crate) fn new(sitting: Sitting, rehearsal: Option<Rehearsal>, measured: MeasuredDisplay) -> Self {
         let language = sitting.recorder().header().language.unwrap_or(Language::English);
         Self {
             sitting,
             words: words(language),
             rehearsal,
-            px_per_degree,
+            measured,
             screen: None,
             presentation: None,
             examples: screen::Examples::default(),
             fatal: None,
             retry_at: Instant::now(),
-            outcome,
         }
     }
 
     /// Draws what is to be shown and collects what the participant did.
     fn show(&mut self, ui: &mut egui::Ui, frame: &eframe::Frame) -> anyhow::Result<Option<Action>> {
-        theme::dress_screen(ui);
         let words = &self.words.participant;
         let sitting = &self.sitting;
         if let Some(problem) = &self.fatal {
@@ -123,8 +100,7 @@ impl Study {
         let sitting = &mut self.sitting;
         match action {
             Action::Proceed => {
-                let px_per_degree = self.px_per_degree;
-                sitting.proceed(|| display(frame).map(|display| Display { px_per_degree, ..display }))?;
+                sitting.proceed(|| display(frame).map(|display| self.measured.clone().complete(display)))?;
             }
             Action::Answer(answer) => self.answer(answer)?,
             Action::Pause => {
@@ -171,7 +147,15 @@ impl Study {
     }
 
     /// Lets the simulated person press a key.
-    fn rehearse(&mut self, context: &egui::Context, raw_input: &mut egui::RawInput) -> anyhow::Result<()> {
+    pub(crate) fn rehearse(&mut self, context: &egui::Context, raw_input: &mut egui::RawInput) {
+        if raw_input.viewport_id == egui::ViewportId::ROOT
+            && let Err(error) = self.press(context, raw_input)
+        {
+            self.stop(&error);
+        }
+    }
+
+    fn press(&mut self, context: &egui::Context, raw_input: &mut egui::RawInput) -> anyhow::Result<()> {
         let Some(mut person) = self.rehearsal.take() else { return Ok(()) };
         let rules = self.sitting.experiment().protocol().pictures;
         let next = person.act(self.scene(), &rules, Instant::now());
@@ -193,22 +177,26 @@ impl Study {
         self.fatal = Some(format!("{error:#}"));
     }
 
-    fn outcome(&self) -> Outcome {
+    /// The window closes: an open session is interrupted, and this is how it stands.
+    pub(crate) fn leave(&mut self) -> Outcome {
+        self.sitting.leave();
         let recorder = self.sitting.recorder();
+        let directory = recorder.directory().to_path_buf();
         if let Some(problem) = recorder.problem() {
             let line = |event| serde_json::to_string(event).unwrap_or_else(|error| error.to_string());
-            return Outcome::Unsaved { problem: problem.into(), lines: recorder.unsaved().iter().map(line).collect() };
+            let lines = recorder.unsaved().iter().map(line).collect();
+            return Outcome::Unsaved { problem: problem.into(), lines, directory };
         }
         match &self.fatal {
-            Some(problem) => Outcome::Stopped(problem.clone()),
+            Some(problem) => Outcome::Stopped { problem: problem.clone(), directory },
             None if recorder.is_closed() => Outcome::Complete,
-            None => Outcome::Interrupted,
+            None if recorder.has_begun() => Outcome::Interrupted { directory },
+            None => Outcome::NotBegun,
         }
     }
-}
 
-impl eframe::App for Study {
-    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+    /// One frame.
+    pub(crate) fn ui(&mut self, ui: &mut egui::Ui, frame: &eframe::Frame) {
         let acted = match self.show(ui, frame) {
             Ok(None) => return,
             Ok(Some(action)) => self.act(action, ui, frame),
@@ -218,19 +206,6 @@ impl eframe::App for Study {
             self.stop(&error);
         }
         ui.request_repaint();
-    }
-
-    fn raw_input_hook(&mut self, context: &egui::Context, raw_input: &mut egui::RawInput) {
-        if raw_input.viewport_id == egui::ViewportId::ROOT
-            && let Err(error) = self.rehearse(context, raw_input)
-        {
-            self.stop(&error);
-        }
-    }
-
-    fn on_exit(&mut self) {
-        self.sitting.leave();
-        *self.outcome.borrow_mut() = self.outcome();
     }
 }
 

@@ -1,0 +1,45 @@
+//! How the program ended, for the exit status.
+
+use std::path::{Path, PathBuf};
+
+/// How the program ended.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// Nobody has begun a session, or the participant did not agree to take part.
+    #[default]
+    NotBegun,
+    /// Every trial is answered, or the administrator ended the session, and all is on disk.
+    Complete,
+    /// The window was closed before.
+    Interrupted { directory: PathBuf },
+    /// The experiment or a picture refused to go on; in words.
+    Stopped { problem: String, directory: PathBuf },
+    /// The window was closed while the disk refused events: why, and the lines that are not in the record.
+    Unsaved { problem: String, lines: Vec<String>, directory: PathBuf },
+}
+
+impl Outcome {
+    /// Success for a session that is over; else what there is to say, and how to go on.
+    pub(crate) fn into_result(self) -> anyhow::Result<()> {
+        match self {
+            Self::Complete => Ok(()),
+            Self::NotBegun => anyhow::bail!("no session was begun, and nothing is recorded"),
+            Self::Interrupted { directory } => anyhow::bail!("not complete; {}", how_to_resume(&directory)),
+            Self::Stopped { problem, directory } => anyhow::bail!("{problem}; {}", how_to_resume(&directory)),
+            Self::Unsaved { problem, lines, directory } => anyhow::bail!(
+                "{problem}; these lines are missing at the end of the record in {}:\n{}",
+                directory.display(),
+                lines.join("\n")
+            ),
+        }
+    }
+}
+
+/// What to call to go on with the session in a folder.
+fn how_to_resume(directory: &Path) -> String {
+    let part = |part: Option<&Path>| part.map_or_else(String::new, |part| part.display().to_string());
+    let [data, folder] = [part(directory.parent()), part(directory.file_name().map(Path::new))];
+    // A folder is named by the participant's code, and a number where there were sessions before.
+    let code = folder.split('.').next().unwrap_or_default();
+    format!("continue with --data {data} --participant {code} --resume")
+}

@@ -1,0 +1,172 @@
+//! The program as eframe sees it: the set-up, then a session.
+
+use std::cell::RefCell;
+use std::path::Path;
+use std::rc::Rc;
+
+use eframe::egui;
+use scumble_psychophysics::{Observer, Software};
+
+use crate::arguments::{Arguments, ResumePolicy};
+use crate::display::monitors;
+use crate::outcome::Outcome;
+use crate::rehearsal::Rehearsal;
+use crate::screen;
+use crate::session_folder::{Found, find};
+use crate::session_view::SessionView;
+use crate::setup::{Choice, Given, MeasuredDisplay, Ready, RecentFolders, Setup, SetupAction};
+use crate::sitting::{self, Sitting};
+use crate::theme;
+use crate::words::words;
+
+/// What is on the participant's screen.
+enum Part {
+    /// Nothing yet: the first frame knows the monitors that the set-up offers.
+    Opening,
+    Setup(Box<Setup>),
+    Session(Box<SessionView>),
+    /// A session that cannot begin or go on, in words.
+    Refused(String),
+}
+
+/// The running program.
+pub(crate) struct Program {
+    arguments: Arguments,
+    part: Part,
+    outcome: Rc<RefCell<Outcome>>,
+}
+
+impl Program {
+    /// A program that begins with the set-up. `outcome` is told how it ends.
+    pub(crate) fn with_setup(arguments: Arguments, outcome: Rc<RefCell<Outcome>>) -> Self {
+        Self { arguments, part: Part::Opening, outcome }
+    }
+
+    /// A program that begins with a session.
+    pub(crate) fn with_session(
+        arguments: Arguments,
+        sitting: Sitting,
+        measured: MeasuredDisplay,
+        outcome: Rc<RefCell<Outcome>>,
+    ) -> anyhow::Result<Self> {
+        let rehearsal = match arguments.rehearse {
+            Some(model) => Some(Observer::new(model, sitting.recorder().header().seed)?),
+            None => None,
+        };
+        let rehearsal = rehearsal.map(|observer| Rehearsal::new(observer, arguments.speed));
+        let part = Part::Session(Box::new(SessionView::new(sitting, rehearsal, measured)));
+        Ok(Self { arguments, part, outcome })
+    }
+
+    /// The set-up before its first page.
+    fn open_setup(&self, frame: &eframe::Frame) -> Setup {
+        let arguments = &self.arguments;
+        // A window is put on another monitor by hand.
+        let (monitors, monitor) = if arguments.windowed { (Vec::new(), 0) } else { monitors(frame) };
+        Setup::new(Given {
+            folder: arguments.data.as_ref().map_or_else(String::new, |folder| folder.display().to_string()),
+            protocol: arguments.protocol.clone(),
+            participant: arguments.participant.clone().unwrap_or_default(),
+            participant_number: arguments.participant_number,
+            language: arguments.language,
+            monitors,
+            monitor,
+            px_per_degree: arguments.px_per_degree,
+            recent: RecentFolders::of_user(),
+            find: Box::new(find),
+        })
+    }
+
+    /// Does what the set-up cannot do itself.
+    fn act(&mut self, action: SetupAction, context: &egui::Context) {
+        let Part::Setup(setup) = &mut self.part else { return };
+        let next = match action {
+            SetupAction::Monitor(index) => {
+                context.send_viewport_cmd(egui::ViewportCommand::SetMonitor(index));
+                return;
+            }
+            SetupAction::Quit => {
+                context.send_viewport_cmd(egui::ViewportCommand::Close);
+                return;
+            }
+            SetupAction::Done(ready) => self.begin(*ready),
+            SetupAction::Interrupted(directory, choice) => {
+                let policy = match choice {
+                    Choice::Resume => ResumePolicy::Continue,
+                    Choice::RepeatRound => ResumePolicy::RepeatRound,
+                    Choice::Discard => ResumePolicy::Discard,
+                };
+                match resume(&directory, policy) {
+                    Ok(None) => {
+                        setup.look_again();
+                        return;
+                    }
+                    Ok(Some(sitting)) => Ok(SessionView::new(sitting, None, MeasuredDisplay::default())),
+                    Err(error) => Err(error),
+                }
+            }
+        };
+        self.part = match next {
+            Ok(view) => Part::Session(Box::new(view)),
+            Err(error) => Part::Refused(format!("{error:#}")),
+        };
+    }
+
+    /// The session that the set-up leads to.
+    fn begin(&self, ready: Ready) -> anyhow::Result<SessionView> {
+        let folder = ready.study.directory();
+        let Found::Free(directory) = find(folder, &ready.participant)? else {
+            anyhow::bail!("{} holds a session of {} by now", folder.display(), ready.participant);
+        };
+        let software = Software::of("scumble-study", env!("CARGO_PKG_VERSION"));
+        let header = ready.header(self.arguments.seed(), self.arguments.started_at, software);
+        RecentFolders::of_user().remember(folder);
+        let sitting = Sitting::fresh(ready.study.clone(), &directory, header)?;
+        Ok(SessionView::new(sitting, None, ready.measured))
+    }
+}
+
+/// The interrupted session, to be continued; `None` where it is thrown away.
+pub(crate) fn resume(directory: &Path, policy: ResumePolicy) -> anyhow::Result<Option<Sitting>> {
+    match policy {
+        ResumePolicy::Discard => sitting::discard(directory).map(|()| None),
+        _ => Sitting::resume(directory, policy).map(Some),
+    }
+}
+
+impl eframe::App for Program {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        theme::dress_screen(ui);
+        match &mut self.part {
+            Part::Opening => {
+                self.part = Part::Setup(Box::new(self.open_setup(frame)));
+                ui.request_repaint();
+            }
+            Part::Setup(setup) => {
+                if let Some(action) = screen::setup(ui, setup) {
+                    self.act(action, ui.ctx());
+                    ui.request_repaint();
+                }
+            }
+            Part::Session(view) => view.ui(ui, frame),
+            Part::Refused(problem) => {
+                let words = &words(self.arguments.language).participant;
+                if screen::refused(ui, problem, words).is_some() {
+                    ui.send_viewport_cmd(egui::ViewportCommand::Close);
+                }
+            }
+        }
+    }
+
+    fn raw_input_hook(&mut self, context: &egui::Context, raw_input: &mut egui::RawInput) {
+        if let Part::Session(view) = &mut self.part {
+            view.rehearse(context, raw_input);
+        }
+    }
+
+    fn on_exit(&mut self) {
+        if let Part::Session(view) = &mut self.part {
+            *self.outcome.borrow_mut() = view.leave();
+        }
+    }
+}
