@@ -177,7 +177,7 @@ impl Setup {
     /// Goes on to the next page, unless something is wrong with this one or it is the last.
     pub(crate) fn next(&mut self) {
         if self.page == Page::Study {
-            self.look_again();
+            self.study.look_closely(self.language);
         }
         if self.page != Page::Declined
             && self.problem().is_none()
@@ -227,7 +227,7 @@ impl Setup {
         let luminance_table = self.luminance().map(|table| table.rows.clone());
         Ok(Ready {
             participant: self.study.participant().to_owned(),
-            participant_number: self.study.participant_number(&study).ok_or(Page::Study)?,
+            participant_number: self.study.participant_number().ok_or(Page::Study)?,
             study,
             directory: directory.clone(),
             language: self.language,

@@ -118,6 +118,8 @@ fn each_problem_of_the_first_page_holds_the_page_and_is_named() {
     std::fs::write(folder.path().join("file"), "").unwrap();
     entered.pick_folder(&folder.path().join("file"));
     problem_is(&mut entered, |problem| matches!(problem, Problem::Folder(FolderProblem::NotAFolder(_))));
+    entered.pick_folder(&folder.path().join("file/study"));
+    problem_is(&mut entered, |problem| matches!(problem, Problem::Folder(_)));
     entered.pick_folder(folder.path());
     problem_is(&mut entered, |problem| matches!(problem, Problem::NoCode));
     for code in ["Erika Mustermann", "a.b", "12345678901234567", "ä"] {

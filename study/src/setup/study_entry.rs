@@ -99,10 +99,16 @@ impl StudyEntry {
         self.opened().is_some_and(|opened| opened.study.protocol().schedule.order == Order::LatinSquare)
     }
 
+    /// The number that the code ends with, 0 without one; `None` while there is no study.
+    pub(crate) fn number_of_code(&self) -> Option<u32> {
+        let opened = self.opened()?;
+        Some(header_of(&self.participant, opened.study.protocol()).participant_number)
+    }
+
     /// The number typed, else the one at the end of the code; `None` for what is no number.
-    pub(super) fn participant_number(&self, study: &StudyFolder) -> Option<u32> {
+    pub(super) fn participant_number(&self) -> Option<u32> {
         match self.number.trim() {
-            "" => Some(header_of(&self.participant, study.protocol()).participant_number),
+            "" => self.number_of_code(),
             typed => typed.parse().ok(),
         }
     }
@@ -131,6 +137,14 @@ impl StudyEntry {
         let folder = path_of(&self.folder);
         self.opened = (!self.folder.trim().is_empty()).then(|| self.open(&folder, language));
         self.look_for_session();
+    }
+
+    /// [`StudyEntry::look`], and whether a session could be written.
+    pub(super) fn look_closely(&mut self, language: Language) {
+        self.look(language);
+        if let Some(Err(problem)) = self.opened().map(|opened| opened.study.probe()) {
+            self.opened = Some(Err(problem));
+        }
     }
 
     fn open(&mut self, folder: &Path, language: Language) -> Result<Opened, FolderProblem> {
@@ -175,7 +189,7 @@ impl StudyEntry {
         if !is_code(&self.participant, opened.study.protocol()) {
             return Some(Problem::NotACode(&self.participant));
         }
-        if self.participant_number(&opened.study).is_none() {
+        if self.participant_number().is_none() {
             return Some(Problem::NotANumber(&self.number));
         }
         match self.found.as_ref()? {

@@ -91,6 +91,16 @@ impl StudyFolder {
         self.unkept.is_some()
     }
 
+    /// Whether the system lets a session be written here: makes a file in the folder, or in the nearest one
+    /// above that is there, and removes it again.
+    pub(super) fn probe(&self) -> Result<(), FolderProblem> {
+        let directory = std::path::absolute(&self.directory).unwrap_or_else(|_| self.directory.clone());
+        let there = directory.ancestors().find(|folder| folder.exists()).unwrap_or(&directory);
+        let file = there.join(format!(".scumble-study-{}", std::process::id()));
+        let written = std::fs::File::create_new(&file).and_then(|_| std::fs::remove_file(&file));
+        written.map_err(|reason| FolderProblem::NotWritable { path: there.into(), reason })
+    }
+
     /// Makes the folder and puts the protocol into it, for every later participant; does nothing where
     /// it lies there already. To be called when a session begins.
     ///
@@ -228,5 +238,18 @@ mod tests {
         assert!(problem.contains("two-alternative"), "{problem}");
         let inside = StudyFolder::open(&file.join("study"), None).and_then(|study| study.keep_protocol());
         assert!(inside.is_err());
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_made_is_found_before_anybody_begins() {
+        let folder = folder();
+        let new = folder.path().join("new/study");
+        StudyFolder::open(&new, None).unwrap().probe().unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left behind");
+
+        std::fs::write(folder.path().join("file"), "").unwrap();
+        let inside = StudyFolder::open(&folder.path().join("file/study"), None);
+        let problem = inside.and_then(|study| study.probe()).unwrap_err().to_string();
+        assert!(problem.contains("file"), "{problem}");
     }
 }

@@ -41,7 +41,6 @@ pub(crate) struct SetupWords {
     /// Code and number, where the number decides anything.
     pub(crate) participant_value: fn(&str, Option<u32>) -> String,
     pub(crate) number: &'static str,
-    pub(crate) number_hint: &'static str,
     pub(crate) monitor: &'static str,
     pub(crate) monitor_named: fn(&Display) -> String,
     pub(crate) interrupted: &'static str,
@@ -77,6 +76,8 @@ pub(crate) struct SetupWords {
     /// The level that was matched.
     pub(crate) gamma_result: fn(Option<u8>) -> String,
     pub(crate) table_text: fn(&[(u8, f64)]) -> String,
+    /// Candela per square metre.
+    pub(crate) luminance: fn(f64) -> String,
     pub(crate) brightness_value: fn(&MeasuredDisplay) -> String,
 
     // Room.

@@ -14,8 +14,8 @@ const AGE: f32 = 90.0;
 pub(super) fn about(ui: &mut Ui, about: &mut About, words: &SetupWords, is_new: bool) {
     ui.label(words.about_text);
     widgets::named(ui, words.age, |ui| {
-        if let Some(typed) = widgets::line(ui, words.age, &about.age, "", AGE, is_new) {
-            about.age = typed;
+        if let Some(age) = widgets::line(ui, words.age, &about.age, "", AGE, is_new).text {
+            about.age = age;
         }
     });
     let genders = [Gender::Female, Gender::Male, Gender::Other];

@@ -1,7 +1,7 @@
 //! The display's tone curve: measured with a photometer, else checked by eye.
 
 use eframe::egui;
-use egui::{Align2, Color32, Key, Pos2, Rect, Sense, Stroke, TextStyle, Ui, Vec2};
+use egui::{Align2, Color32, Pos2, Rect, Sense, Stroke, TextStyle, Ui, Vec2};
 use scumble_stimuli::Transfer;
 
 use super::{focus, widgets};
@@ -23,7 +23,7 @@ const GAP: f32 = 24.0;
 pub(super) fn brightness(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, is_new: bool) {
     ui.horizontal_top(|ui| {
         if let Some(table) = setup.luminance() {
-            curve(ui, table);
+            curve(ui, table, words);
             ui.add_space(GAP * widgets::scale(ui));
             ui.vertical(|ui| ui.label((words.table_text)(&table.rows)));
             return;
@@ -59,13 +59,13 @@ fn fields(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, takes_keyboard: bo
     if by != 0 {
         setup.gamma.lighten(by.clamp(i8::MIN.into(), i8::MAX.into()) as i8);
     }
-    if response.has_focus() && focus::pressed(ui, Key::Enter) {
+    if focus::confirmed(ui, &response) {
         setup.gamma.matched = true;
     }
 }
 
 /// The measured light of every level over the levels, its rows as dots, and sRGB's in faint.
-fn curve(ui: &mut Ui, table: &LuminanceTable) {
+fn curve(ui: &mut Ui, table: &LuminanceTable, words: &SetupWords) {
     let scale = widgets::scale(ui);
     let (rect, _) = ui.allocate_exact_size(CURVE * scale, Sense::empty());
     ui.painter().rect_filled(rect, 6.0, theme::FIELD);
@@ -89,7 +89,7 @@ fn curve(ui: &mut Ui, table: &LuminanceTable) {
         ui.painter().text(place, anchor, words, TextStyle::Small.resolve(ui.style()), theme::INK)
     };
     let white = table.rows.last().map_or(0.0, |row| row.1);
-    text(rect.left_top() + Vec2::splat(8.0 * scale), Align2::LEFT_TOP, &format!("{white} cd/m\u{b2}"));
+    text(rect.left_top() + Vec2::splat(8.0 * scale), Align2::LEFT_TOP, &(words.luminance)(white));
     for level in [0u8, 128, 255] {
         let foot = Pos2::new(place(level.into(), 0.0).x, rect.bottom() - 4.0 * scale);
         text(foot, Align2::CENTER_BOTTOM, &level.to_string());

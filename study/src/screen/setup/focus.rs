@@ -52,3 +52,12 @@ pub(super) fn arrow_steps(ui: &Ui, response: &Response, coarse: i32) -> i32 {
     };
     ui.input(|input| input.events.iter().map(step).sum())
 }
+
+/// Whether what has the keyboard was confirmed by the return key, which then is free to go on.
+pub(super) fn confirmed(ui: &Ui, response: &Response) -> bool {
+    let confirmed = response.has_focus() && !response.gained_focus() && pressed(ui, Key::Enter);
+    if confirmed {
+        response.surrender_focus();
+    }
+    confirmed
+}

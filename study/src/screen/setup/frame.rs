@@ -93,7 +93,7 @@ fn row(ui: &mut Ui, setup: &Setup, words: &SetupWords) -> Option<Press> {
     pressed
 }
 
-/// Escape goes back. Return goes on where nothing else takes it: from a line of text, or where no widget
+/// Escape goes back. Return goes on where nothing else takes it: from the last line of text, or where no widget
 /// has the keyboard. Nobody agrees to a text by a key that means something else everywhere else.
 fn key(ui: &Ui, page: Page, had_keyboard: Option<Id>) -> Option<Press> {
     if focus::pressed(ui, Key::Escape) {

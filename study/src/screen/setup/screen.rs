@@ -1,7 +1,7 @@
 //! Viewing distance, and the size of a pixel by a bank card held against the screen.
 
 use eframe::egui;
-use egui::{Color32, CursorIcon, Key, Rect, Sense, Ui, Vec2};
+use egui::{Color32, CursorIcon, Rect, Sense, Ui, Vec2};
 
 use super::{focus, widgets};
 use crate::setup::{Setup, arcmin};
@@ -24,16 +24,17 @@ const CONTACTS: Color32 = Color32::from_gray(150);
 pub(super) fn screen(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, is_new: bool) {
     let scale_factor = f64::from(ui.pixels_per_point());
     ui.horizontal_top(|ui| {
-        ui.vertical(|ui| {
+        let has_distance = ui.vertical(|ui| {
             ui.set_width(TEXT * widgets::scale(ui));
             ui.label(words.distance_text);
-            ui.horizontal(|ui| {
-                let typed =
-                    widgets::line(ui, words.distance_text, &setup.calibration.distance_cm, "", DISTANCE, is_new);
-                if let Some(typed) = typed {
-                    setup.calibration.distance_cm = typed;
+            let entered = ui.horizontal(|ui| {
+                let distance_cm = &setup.calibration.distance_cm;
+                let typed = widgets::line(ui, words.distance_text, distance_cm, "", DISTANCE, is_new);
+                if let Some(distance_cm) = typed.text {
+                    setup.calibration.distance_cm = distance_cm;
                 }
                 ui.label("cm");
+                typed.entered
             });
             ui.label(words.card_text);
             let offered = [(true, words.card_matches), (false, words.not_measured)];
@@ -41,9 +42,10 @@ pub(super) fn screen(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, is_new:
                 setup.calibration.set_matched(matched, scale_factor);
             }
             results(ui, setup, words);
+            entered.inner
         });
         ui.add_space(GAP * widgets::scale(ui));
-        card(ui, setup, words, scale_factor);
+        card(ui, setup, words, scale_factor, has_distance.inner);
     });
 }
 
@@ -61,7 +63,7 @@ fn results(ui: &mut Ui, setup: &Setup, words: &SetupWords) {
 }
 
 /// The outline, to be made as large as the card: its left edge stays, so that the card can lie against it.
-fn card(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, scale_factor: f64) {
+fn card(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, scale_factor: f64, takes_keyboard: bool) {
     let calibration = &mut setup.calibration;
     let room = ui.available_rect_before_wrap();
     let [width_px, height_px] = calibration.card_px(scale_factor).map(|side| side as f32 / ui.pixels_per_point());
@@ -71,7 +73,7 @@ fn card(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, scale_factor: f64) {
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, words.card));
     paint(ui, rect);
 
-    if response.drag_started() {
+    if takes_keyboard || response.drag_started() {
         response.request_focus();
     }
     let dragged_px = (response.drag_delta().x * ui.pixels_per_point()).round() as i32;
@@ -80,7 +82,7 @@ fn card(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, scale_factor: f64) {
         let most = room.width().min(room.height() * rect.aspect_ratio()) * ui.pixels_per_point();
         calibration.widen(by_px, scale_factor, most as u32);
     }
-    if response.has_focus() && focus::pressed(ui, Key::Enter) {
+    if focus::confirmed(ui, &response) {
         calibration.set_matched(true, scale_factor);
     }
 }

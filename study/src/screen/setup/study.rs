@@ -21,7 +21,7 @@ const KEYS: [Key; 8] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, K
 pub(super) fn study(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, is_new: bool) -> Option<SetupAction> {
     ui.spacing_mut().item_spacing.y *= 0.75;
     let asks_for_code = is_new && setup.study().opened().is_some();
-    widgets::named(ui, words.folder, |ui| folder(ui, setup, words));
+    let has_folder = widgets::named(ui, words.folder, |ui| folder(ui, setup, words));
     if setup.study().opened().is_none() {
         recent(ui, setup, words);
     } else {
@@ -33,19 +33,22 @@ pub(super) fn study(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, is_new: 
             setup.set_language(language);
         }
     });
-    widgets::named(ui, words.participant, |ui| participant(ui, setup, words, asks_for_code));
+    widgets::named(ui, words.participant, |ui| participant(ui, setup, words, asks_for_code || has_folder));
     let moved = monitor(ui, setup, words);
     interrupted(ui, setup, words).or(moved.map(SetupAction::Monitor))
 }
 
-fn folder(ui: &mut Ui, setup: &mut Setup, words: &SetupWords) {
-    if let Some(typed) = widgets::line(ui, words.folder, setup.study().folder(), words.folder_hint, PATH, false) {
-        setup.set_folder(typed);
+/// Whether a folder was entered in this frame, so that the keyboard is needed elsewhere.
+fn folder(ui: &mut Ui, setup: &mut Setup, words: &SetupWords) -> bool {
+    let typed = widgets::line(ui, words.folder, setup.study().folder(), words.folder_hint, PATH, false);
+    if let Some(folder) = typed.text {
+        setup.set_folder(folder);
     }
     let dropped = ui.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
     if let Some(dropped) = dropped {
         setup.pick_folder(&dropped);
     }
+    typed.entered && setup.study().opened().is_some()
 }
 
 /// Folders to pick by their buttons, or by their numbers while nothing is typed into.
@@ -89,15 +92,16 @@ fn protocol(ui: &mut Ui, setup: &mut Setup, words: &SetupWords) {
 fn participant(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, takes_keyboard: bool) {
     ui.horizontal(|ui| {
         let code = setup.study().participant();
-        if let Some(typed) = widgets::line(ui, words.participant, code, words.participant_hint, CODE, takes_keyboard) {
-            setup.set_participant(typed);
+        let typed = widgets::line(ui, words.participant, code, words.participant_hint, CODE, takes_keyboard);
+        if let Some(code) = typed.text {
+            setup.set_participant(code);
         }
         if setup.study().number_matters() {
             ui.label(words.number);
-            if let Some(typed) =
-                widgets::line(ui, words.number, setup.study().number(), words.number_hint, NUMBER, false)
-            {
-                setup.set_number(typed);
+            let number = setup.study().number();
+            let hint = setup.study().number_of_code().map_or_else(String::new, |number| number.to_string());
+            if let Some(number) = widgets::line(ui, words.number, number, &hint, NUMBER, false).text {
+                setup.set_number(number);
             }
         }
     });

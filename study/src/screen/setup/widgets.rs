@@ -1,8 +1,9 @@
 //! Parts that several pages are made of. Sizes are in points of a screen of usual height; see [`scale`].
 
 use eframe::egui;
-use egui::{Frame, Label, Margin, RichText, TextEdit, TextStyle, Ui, Vec2};
+use egui::{Frame, Key, Label, Margin, RichText, TextEdit, TextStyle, Ui, Vec2};
 
+use super::focus;
 use crate::theme;
 
 /// Around the text of a notice, and inside a line to type into.
@@ -68,15 +69,16 @@ pub(super) fn fact(ui: &mut Ui, name: &str, value: &str, is_missing: bool) {
     });
 }
 
-/// A line to type into. Gives what was typed, where that changed.
-pub(super) fn line(
-    ui: &mut Ui,
-    name: &str,
-    text: &str,
-    hint: &str,
-    width: f32,
-    takes_keyboard: bool,
-) -> Option<String> {
+/// What was done to a line in this frame.
+pub(super) struct Typed {
+    /// What it holds, where that changed.
+    pub(super) text: Option<String>,
+    /// Whether it was left by the return key.
+    pub(super) entered: bool,
+}
+
+/// A line to type into.
+pub(super) fn line(ui: &mut Ui, name: &str, text: &str, hint: &str, width: f32, takes_keyboard: bool) -> Typed {
     let mut text = text.to_owned();
     let scale = scale(ui);
     let edit = TextEdit::singleline(&mut text).hint_text(hint).desired_width(width * scale);
@@ -84,7 +86,8 @@ pub(super) fn line(
     if takes_keyboard {
         response.request_focus();
     }
-    response.changed().then_some(text)
+    let entered = response.lost_focus() && focus::pressed(ui, Key::Enter);
+    Typed { text: response.changed().then_some(text), entered }
 }
 
 /// One of several, side by side. Gives the one that was picked in this frame.

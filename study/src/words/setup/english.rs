@@ -37,7 +37,6 @@ pub(in crate::words) const ENGLISH: SetupWords = SetupWords {
         None => code.to_owned(),
     },
     number: "number for the order of rounds",
-    number_hint: "from the code",
     monitor: "Monitor",
     monitor_named,
     interrupted: "That session",
@@ -50,7 +49,7 @@ pub(in crate::words) const ENGLISH: SetupWords = SetupWords {
     card: "Outline of a card",
     card_text: "Hold a bank card, or any card of that size (85.6 x 54 mm), flat against the screen with its left \
                 edge on the outline's. Make the outline as wide as the card: with the arrow keys, finely with \
-                Shift, or by dragging.",
+                Shift, or by dragging; then press Enter.",
     card_matches: "It matches",
     not_measured: "Not measured",
     pixel_size: "Pixels per mm",
@@ -72,7 +71,7 @@ pub(in crate::words) const ENGLISH: SetupWords = SetupWords {
 
     brightness: "Brightness",
     gamma_text: "Step back two metres, or narrow your eyes, until the rows on the left become one grey. Change the \
-                 grey on the right with the arrow keys, finely with Shift, until both fields look alike.",
+                 grey on the right with the arrow keys, finely with Shift, until both fields look alike; then press Enter.",
     grey: "Grey",
     gamma_alike: "They look alike",
     not_checked: "Not checked",
@@ -85,6 +84,7 @@ pub(in crate::words) const ENGLISH: SetupWords = SetupWords {
             range(rows)
         )
     },
+    luminance: |value| format!("{value} cd/m\u{b2}"),
     brightness_value,
 
     room: "Room",
@@ -146,12 +146,12 @@ fn title(page: Page) -> &'static str {
 
 fn keys(page: Page) -> &'static str {
     match page {
-        Page::Study => "Tab: to the next field      Enter: next page",
+        Page::Study => "Enter: go on      Tab: to the next field",
         Page::Room => "Tab: leave the text      Enter: new line      Escape: back",
         Page::Consent => "Page keys, arrows: move the text      Tab, Enter: choose      Escape: back",
         Page::Declined => "Tab, Enter: choose      Escape: back",
         Page::Summary => "Enter: start      Escape: back",
-        _ => "Tab: to the next field      Enter: next page      Escape: back",
+        _ => "Enter: go on      Tab: to the next field      Escape: back",
     }
 }
 

@@ -37,7 +37,6 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
         None => code.to_owned(),
     },
     number: "Nummer für die Folge der Runden",
-    number_hint: "aus dem Code",
     monitor: "Bildschirm",
     monitor_named,
     interrupted: "Diese Sitzung",
@@ -50,7 +49,7 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
     card: "Umriss einer Karte",
     card_text: "Halten Sie eine Bankkarte oder eine andere Karte dieser Größe (85,6 x 54 mm) flach an den Bildschirm, \
                 ihren linken Rand auf dem des Umrisses. Machen Sie den Umriss so breit wie die Karte: mit den \
-                Pfeiltasten, fein mit der Umschalttaste, oder durch Ziehen.",
+                Pfeiltasten, fein mit der Umschalttaste, oder durch Ziehen; drücken Sie dann die Eingabetaste.",
     card_matches: "Passt",
     not_measured: "Nicht gemessen",
     pixel_size: "Bildpunkte je mm",
@@ -75,7 +74,7 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
     brightness: "Helligkeit",
     gamma_text: "Treten Sie zwei Meter zurück oder kneifen Sie die Augen zusammen, bis die Zeilen links zu einem Grau \
                  verschwimmen. Ändern Sie das Grau rechts mit den Pfeiltasten, fein mit der Umschalttaste, bis beide \
-                 Felder gleich aussehen.",
+                 Felder gleich aussehen; drücken Sie dann die Eingabetaste.",
     grey: "Grau",
     gamma_alike: "Sie sehen gleich aus",
     not_checked: "Nicht geprüft",
@@ -88,6 +87,7 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
             range(rows)
         )
     },
+    luminance: |value| comma(format!("{value} cd/m\u{b2}")),
     brightness_value,
 
     room: "Raum",
@@ -150,12 +150,12 @@ fn title(page: Page) -> &'static str {
 
 fn keys(page: Page) -> &'static str {
     match page {
-        Page::Study => "Tab: nächstes Feld      Eingabe: nächste Seite",
+        Page::Study => "Eingabe: weiter      Tab: nächstes Feld",
         Page::Room => "Tab: Text verlassen      Eingabe: neue Zeile      Escape: zurück",
         Page::Consent => "Bild- und Pfeiltasten: Text bewegen      Tab, Eingabe: auswählen      Escape: zurück",
         Page::Declined => "Tab, Eingabe: auswählen      Escape: zurück",
         Page::Summary => "Eingabe: beginnen      Escape: zurück",
-        _ => "Tab: nächstes Feld      Eingabe: nächste Seite      Escape: zurück",
+        _ => "Eingabe: weiter      Tab: nächstes Feld      Escape: zurück",
     }
 }
 
