@@ -62,35 +62,32 @@ pub(super) fn frame(
     if let Some(problem) = problem {
         in_rect(ui, notice, "notice", Layout::top_down(Align::Min), |ui| widgets::notice(ui, &problem));
     }
-    let clicked = in_rect(ui, buttons, "buttons", Layout::left_to_right(Align::Center), |ui| row(ui, setup, words));
+    // The keyboard comes to the way on first.
+    let on = in_rect(ui, buttons, "on", Layout::right_to_left(Align::Center), |ui| way_on(ui, page, words));
+    let back = in_rect(ui, buttons, "back", Layout::left_to_right(Align::Center), |ui| way_back(ui, page, words));
+    let clicked = on.or(back);
     clicked.or_else(|| key(ui, page, had_keyboard))
 }
 
-/// The buttons below a page.
-fn row(ui: &mut Ui, setup: &Setup, words: &SetupWords) -> Option<Press> {
-    let page = setup.page();
-    let mut pressed = None;
-    if page != Page::Study && ui.button(words.back).clicked() {
-        pressed = Some(Press::Back);
-    }
+/// The buttons that go on, from right to left.
+fn way_on(ui: &mut Ui, page: Page, words: &SetupWords) -> Option<Press> {
+    let name = match page {
+        Page::Room => words.hand_over,
+        Page::Consent => words.agree,
+        Page::Declined => words.close,
+        Page::Summary => words.start,
+        _ => words.next,
+    };
+    let next = ui.button(name).clicked().then_some(Press::Next);
+    let decline = page == Page::Consent && ui.button(words.disagree).clicked();
+    next.or(decline.then_some(Press::Decline))
+}
+
+/// The button that goes back, and what keys do.
+fn way_back(ui: &mut Ui, page: Page, words: &SetupWords) -> Option<Press> {
+    let back = page != Page::Study && ui.button(words.back).clicked();
     ui.label(RichText::new((words.keys)(page)).small().color(theme::FAINT_INK));
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        // From right to left on the screen; the keyboard comes to the way on first.
-        let next = match page {
-            Page::Room => words.hand_over,
-            Page::Consent => words.agree,
-            Page::Declined => words.close,
-            Page::Summary => words.start,
-            _ => words.next,
-        };
-        if ui.button(next).clicked() {
-            pressed = Some(Press::Next);
-        }
-        if page == Page::Consent && ui.button(words.disagree).clicked() {
-            pressed = Some(Press::Decline);
-        }
-    });
-    pressed
+    back.then_some(Press::Back)
 }
 
 /// Escape goes back. Return goes on where nothing else takes it: from the last line of text, or where no widget
