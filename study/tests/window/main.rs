@@ -7,12 +7,15 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod clock;
+mod clocks;
 mod crashes;
 mod disk;
+mod disks;
 mod monitors;
 mod one_picture;
 mod pixels;
 mod programs;
+mod rehearsals;
 mod screen;
 mod sitting;
 mod two_pictures;

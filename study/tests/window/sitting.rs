@@ -1,7 +1,8 @@
 //! A participant at the window, and the state machine that knows what the window must show.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus};
+use std::process::{Command, ExitStatus, Stdio};
 
 use image::GrayImage;
 use scumble_psychophysics::{
@@ -9,6 +10,7 @@ use scumble_psychophysics::{
 };
 use scumble_stimuli::{Transfer, picture_sha256};
 
+use crate::pixels::Pixels;
 use crate::programs::{Running, wait_for};
 use crate::screen::Screen;
 
@@ -62,6 +64,25 @@ impl<'a> Sitting<'a> {
         seed: u64,
         environment: &[(&'a str, &'a str)],
     ) -> Self {
+        Self::start_with(screen, folder, protocol, seed, environment, &[])
+    }
+
+    /// Lets a simulated person sit through a session by itself, and gives its record.
+    pub fn rehearse(screen: &Screen, folder: &Path, protocol: Protocol, seed: u64, observer: &str) -> Session {
+        let arguments = ["--rehearse", observer, "--speed", "20"];
+        let mut sitting = Sitting::start_with(screen, folder, protocol, seed, &[], &arguments);
+        assert!(sitting.exit_status().success(), "the session is complete");
+        sitting.complete_record()
+    }
+
+    fn start_with(
+        screen: &'a Screen,
+        folder: &Path,
+        protocol: Protocol,
+        seed: u64,
+        environment: &[(&'a str, &'a str)],
+        more: &[&str],
+    ) -> Self {
         let file = folder.join("protocol.toml");
         std::fs::write(&file, protocol.to_toml().unwrap()).unwrap();
         let data = folder.join("study");
@@ -70,11 +91,22 @@ impl<'a> Sitting<'a> {
         let [seed_text, number] = [seed.to_string(), PARTICIPANT_NUMBER.to_string()];
         let fresh = ["--protocol", file.to_str().unwrap(), "--seed", &seed_text, "--participant-number", &number]
             .map(String::from);
-        let study = Running(screen.study(&[&common[..], &fresh].concat(), environment).spawn().unwrap());
+        let more: Vec<String> = more.iter().copied().map(String::from).collect();
+        let study = Running(screen.study(&[&common[..], &fresh, &more].concat(), environment).spawn().unwrap());
         let environment = environment.to_vec();
         let expected = Experiment::new(protocol.clone(), seed, PARTICIPANT_NUMBER).unwrap();
         let session = data.join("someone");
         Self { screen, protocol, session, common, environment, study, expected, given: Vec::new(), moments: 0 }
+    }
+
+    /// What is on the screen before anyone has pressed a key.
+    pub fn first_page(&self) -> Pixels {
+        wait_for("the first page", || {
+            let [pixels, later] = [self.screen.pixels(), self.screen.pixels()];
+            // A display without a window is black.
+            let is_black = later.rgb.iter().all(|level| *level == 0);
+            (!is_black && pixels == later).then_some(later)
+        })
     }
 
     /// Goes to the next trial: presses the space bar until all of its pictures are on the screen, bit
@@ -100,25 +132,56 @@ impl<'a> Sitting<'a> {
 
     /// Answers by `input`, which must mean `answer`, and waits until that is on disk.
     pub fn answer(&mut self, input: &str, answer: Answer) {
+        self.give(input, answer);
+        self.wait_until_saved();
+    }
+
+    /// Answers by `input`, which must mean `answer`; gives the trial.
+    fn give(&mut self, input: &str, answer: Answer) -> Trial {
         let trial = *self.expected.stage().trial().unwrap();
         self.screen.input(input);
         self.expected.answer(reply(answer)).unwrap();
         self.given.push((trial, answer));
-        let lines = self.given.len() + self.moments;
-        wait_for("the answer on disk", || {
-            let text = std::fs::read_to_string(self.session.join(EVENTS_FILE)).unwrap();
-            (text.matches('\n').count() >= lines).then_some(())
-        });
+        trial
+    }
+
+    /// Presses the key of the left or the right answer and says whether the answer is on disk when the pictures
+    /// vanish: the program draws nothing else before it has tried to write.
+    pub fn try_answer_left(&mut self, left: bool) -> bool {
+        let (input, answer) = self.side(left);
+        let trial = self.give(input, answer);
+        let pictures = self.pictures(&trial);
+        wait_for("the pictures to vanish", || self.screen.pixels().find(&pictures[0]).is_none().then_some(()));
+        self.is_saved()
+    }
+
+    /// Waits until every answer is on disk.
+    pub fn wait_until_saved(&self) {
+        wait_for("the answer on disk", || self.is_saved().then_some(()));
+        self.assert_record_is_as_given();
+    }
+
+    fn is_saved(&self) -> bool {
+        let text = std::fs::read_to_string(self.session.join(EVENTS_FILE)).unwrap_or_default();
+        text.matches('\n').count() >= self.given.len() + self.moments
+    }
+
+    fn assert_record_is_as_given(&self) {
         let record = self.record();
-        let on_disk =
-            record.events.iter().filter_map(Event::answered).map(|answered| (answered.trial, answered.answer));
-        assert_eq!(on_disk.collect::<Vec<_>>(), self.given);
+        let answered = record.events.iter().filter_map(Event::answered);
+        assert_eq!(answered.map(|answered| (answered.trial, answered.answer)).collect::<Vec<_>>(), self.given);
     }
 
     /// Presses the key of the left or the right answer.
     pub fn answer_left(&mut self, left: bool) {
+        let (input, answer) = self.side(left);
+        self.answer(input, answer);
+    }
+
+    /// The key of an answer.
+    fn side(&self, left: bool) -> (&'static str, Answer) {
         let answers = self.expected.stage().trial().unwrap().pictures.answers();
-        if left { self.answer("key Left", answers[0]) } else { self.answer("key Right", answers[1]) }
+        if left { ("key Left", answers[0]) } else { ("key Right", answers[1]) }
     }
 
     /// Kills the program.
@@ -134,9 +197,22 @@ impl<'a> Sitting<'a> {
         self.moments += 1;
     }
 
+    /// What the program has said, when it has ended; it must have been started by [`Sitting::resume_to_hear`].
+    pub fn heard(&mut self) -> String {
+        let mut words = String::new();
+        self.study.0.stderr.take().unwrap().read_to_string(&mut words).unwrap();
+        words
+    }
+
     /// Starts the program anew with --resume.
     pub fn resume(&mut self) {
         self.study = Running(self.resuming().spawn().unwrap());
+        self.moments += 1;
+    }
+
+    /// Like [`Sitting::resume`], to hear what the program says.
+    pub fn resume_to_hear(&mut self) {
+        self.study = Running(self.resuming().stderr(Stdio::piped()).spawn().unwrap());
         self.moments += 1;
     }
 
@@ -160,8 +236,9 @@ impl<'a> Sitting<'a> {
         wait_for("the program to end", || self.study.0.try_wait().unwrap())
     }
 
-    /// Closes the last screen, and gives the record once it holds what it must: it is complete, it
-    /// replays, and the pictures that its trials describe have the hashes of those that were drawn.
+    /// Closes the last screen, and gives the record once it holds what it must: it is complete, it holds the
+    /// trials of an undisturbed session and the answers that were given, once each, it replays, and the pictures
+    /// that its trials describe have the hashes of those that were drawn.
     pub fn finish(mut self) -> Session {
         assert_eq!(next_trial(&mut self.expected), None, "trials are left");
         wait_for("the end on disk", || {
@@ -170,15 +247,25 @@ impl<'a> Sitting<'a> {
         });
         self.screen.input("key space");
         assert!(self.exit_status().success(), "the session is complete");
+        self.assert_record_is_as_given();
+        let record = self.complete_record();
+        for answered in record.events.iter().filter_map(Event::answered) {
+            let secs = answered.response_time_secs;
+            assert!(secs > 0.05 && secs < 30.0, "response time {secs} s");
+        }
+        record
+    }
+
+    /// The record of a complete session.
+    fn complete_record(&self) -> Session {
         let record = self.record();
+        assert!(record.is_complete());
         assert!(record.notices.is_empty(), "{:?}", record.notices);
         assert_eq!(*record.replay().unwrap().stage(), Stage::Finished);
         assert_eq!(record.header.participant_number, PARTICIPANT_NUMBER);
         for answered in record.events.iter().filter_map(Event::answered) {
             let hashes: Vec<String> = self.pictures(&answered.trial).iter().map(picture_sha256).collect();
             assert_eq!(answered.pictures_sha256, hashes);
-            let secs = answered.response_time_secs;
-            assert!(secs > 0.05 && secs < 30.0, "response time {secs} s");
         }
         record
     }
