@@ -2,7 +2,7 @@
 
 use std::mem::Discriminant;
 
-use scumble_psychophysics::{Answer, EVENTS_FILE, Event, Protocol, Role, Trial};
+use scumble_psychophysics::{Answer, EVENTS_FILE, Event, Protocol, Role, Trial, read_session, standing};
 
 use crate::screen::Screen;
 use crate::sitting::{Sitting, roles, short};
@@ -104,11 +104,57 @@ fn a_second_program_on_one_session_is_refused_in_words_and_the_first_goes_on() {
     let screen = Screen::start([1280, 800]);
     let mut sitting = Sitting::start(&screen, folder.path(), short("two-alternative"), 25, &[]);
     while sitting.next().is_some() {
-        let second = sitting.resuming().output().unwrap();
+        let second = sitting.resuming(&["--resume"]).output().unwrap();
         assert!(!second.status.success());
         let words = String::from_utf8(second.stderr).unwrap();
         assert!(words.contains("someone") && words.contains("another program"), "{words}");
         sitting.answer_left(true);
     }
     sitting.finish();
+}
+
+#[test]
+fn a_round_that_is_repeated_on_resume_shows_new_pictures_and_its_former_answers_do_not_stand() {
+    let folder = tempfile::tempdir().unwrap();
+    let screen = Screen::start([1280, 800]);
+    let mut protocol = short("published");
+    protocol.schedule.trials_min = 2;
+    protocol.schedule.trials_max = 2;
+    let mut sitting = Sitting::start(&screen, folder.path(), protocol, 26, &[]);
+    let mut trials = Vec::new();
+    while let Some((trial, _)) = sitting.next() {
+        sitting.answer_left(true);
+        trials.push(trial);
+        if trials.len() == 2 {
+            sitting.crash();
+            sitting.resume_and_repeat_round();
+        }
+    }
+    let record = sitting.finish();
+    // One to practise, two rounds of two, and the one that was repeated.
+    assert_eq!(trials.len(), 6);
+    let former = trials.remove(1);
+    assert!(trials.iter().all(|trial| trial.pictures != former.pictures));
+    let stand: Vec<Trial> = standing(&record.events).into_iter().map(|answered| answered.trial).collect();
+    assert_eq!(stand, trials);
+}
+
+#[test]
+fn a_session_discarded_on_resume_is_kept_beside_the_one_that_begins_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let screen = Screen::start([1280, 800]);
+    let mut sitting = Sitting::start(&screen, folder.path(), short("two-alternative"), 27, &[]);
+    sitting.next().unwrap();
+    sitting.answer_left(true);
+    let former = sitting.session().to_path_buf();
+    sitting.crash();
+    sitting.discard_and_start(28);
+    while sitting.next().is_some() {
+        sitting.answer_left(false);
+    }
+    let record = sitting.finish();
+    assert_eq!(record.header.seed, 28);
+    let former = read_session(&former).unwrap();
+    assert!(former.is_discarded());
+    assert_eq!(former.events.iter().filter_map(Event::answered).count(), 1);
 }

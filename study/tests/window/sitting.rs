@@ -14,7 +14,9 @@ use crate::pixels::Pixels;
 use crate::programs::{Running, wait_for};
 use crate::screen::Screen;
 
-/// The number of the participant, whose code has none.
+/// The code of the participant.
+const PARTICIPANT: &str = "someone-3";
+/// The number of the participant, which stands at the end of the code.
 pub const PARTICIPANT_NUMBER: u32 = 3;
 
 /// A session in the window, from its first screen to its last.
@@ -86,16 +88,16 @@ impl<'a> Sitting<'a> {
         let file = folder.join("protocol.toml");
         std::fs::write(&file, protocol.to_toml().unwrap()).unwrap();
         let data = folder.join("study");
-        let common =
-            ["--data", data.to_str().unwrap(), "--participant", "someone", "--quick-start"].map(String::from).to_vec();
-        let [seed_text, number] = [seed.to_string(), PARTICIPANT_NUMBER.to_string()];
-        let fresh = ["--protocol", file.to_str().unwrap(), "--seed", &seed_text, "--participant-number", &number]
-            .map(String::from);
+        let common = ["--data", data.to_str().unwrap(), "--participant", PARTICIPANT, "--quick-start"]
+            .map(String::from)
+            .to_vec();
+        let seed_text = seed.to_string();
+        let fresh = ["--protocol", file.to_str().unwrap(), "--seed", &seed_text].map(String::from);
         let more: Vec<String> = more.iter().copied().map(String::from).collect();
         let study = Running(screen.study(&[&common[..], &fresh, &more].concat(), environment).spawn().unwrap());
         let environment = environment.to_vec();
         let expected = Experiment::new(protocol.clone(), seed, PARTICIPANT_NUMBER).unwrap();
-        let session = data.join("someone");
+        let session = data.join(PARTICIPANT);
         Self { screen, protocol, session, common, environment, study, expected, given: Vec::new(), moments: 0 }
     }
 
@@ -206,19 +208,39 @@ impl<'a> Sitting<'a> {
 
     /// Starts the program anew with --resume.
     pub fn resume(&mut self) {
-        self.study = Running(self.resuming().spawn().unwrap());
+        self.study = Running(self.resuming(&["--resume"]).spawn().unwrap());
         self.moments += 1;
     }
 
     /// Like [`Sitting::resume`], to hear what the program says.
     pub fn resume_to_hear(&mut self) {
-        self.study = Running(self.resuming().stderr(Stdio::piped()).spawn().unwrap());
+        self.study = Running(self.resuming(&["--resume"]).stderr(Stdio::piped()).spawn().unwrap());
         self.moments += 1;
     }
 
+    /// Starts the program anew, with the round under way from its beginning.
+    pub fn resume_and_repeat_round(&mut self) {
+        self.study = Running(self.resuming(&["--resume", "repeat-round"]).spawn().unwrap());
+        self.moments += 2;
+        self.expected.repeat_round().unwrap();
+    }
+
+    /// Throws the session away and starts another one of the same person.
+    pub fn discard_and_start(&mut self, seed: u64) {
+        let file = self.session.parent().unwrap().with_file_name("protocol.toml");
+        let [file, seed_text] = [file.to_str().unwrap(), &seed.to_string()].map(String::from);
+        let again = ["--resume", "discard", "--protocol", &file, "--seed", &seed_text];
+        self.study = Running(self.resuming(&again).spawn().unwrap());
+        self.session.set_extension("2");
+        self.expected = Experiment::new(self.protocol.clone(), seed, PARTICIPANT_NUMBER).unwrap();
+        self.given.clear();
+        self.moments = 0;
+    }
+
     /// The command that goes on with the session.
-    pub fn resuming(&self) -> Command {
-        self.screen.study(&[&self.common[..], &["--resume".into()]].concat(), &self.environment)
+    pub fn resuming(&self, how: &[&str]) -> Command {
+        let how: Vec<String> = how.iter().copied().map(String::from).collect();
+        self.screen.study(&[&self.common[..], &how].concat(), &self.environment)
     }
 
     /// Where the session lies.
