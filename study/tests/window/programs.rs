@@ -5,6 +5,9 @@ use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+/// Far longer than anything takes, on a busy machine as well.
+const PATIENCE: Duration = Duration::from_secs(60);
+
 /// A program that is killed when it is dropped.
 pub struct Running(pub Child);
 
@@ -46,14 +49,14 @@ fn missing(what: &str, package: &str) -> String {
     )
 }
 
-/// Asks `done` again and again until it gives something; fails with `what` after half a minute.
+/// Asks `done` again and again until it gives something; fails with `what` after a minute.
 pub fn wait_for<T>(what: &str, mut done: impl FnMut() -> Option<T>) -> T {
     let began = Instant::now();
     loop {
         if let Some(value) = done() {
             return value;
         }
-        assert!(began.elapsed() < Duration::from_secs(30), "waited 30 s for {what}");
+        assert!(began.elapsed() < PATIENCE, "waited in vain for {what}");
         std::thread::sleep(Duration::from_millis(50));
     }
 }

@@ -226,13 +226,16 @@ impl<'a> Sitting<'a> {
     }
 
     /// Throws the session away and starts another one of the same person.
-    pub fn discard_and_start(&mut self, seed: u64) {
-        let file = self.session.parent().unwrap().with_file_name("protocol.toml");
-        let [file, seed_text] = [file.to_str().unwrap(), &seed.to_string()].map(String::from);
-        let again = ["--resume", "discard", "--protocol", &file, "--seed", &seed_text];
-        self.study = Running(self.resuming(&again).spawn().unwrap());
+    pub fn discard_and_start(&mut self) {
+        self.study = Running(self.resuming(&["--resume", "discard"]).spawn().unwrap());
         self.session.set_extension("2");
-        self.expected = Experiment::new(self.protocol.clone(), seed, PARTICIPANT_NUMBER).unwrap();
+        let record = wait_for("another session on disk", || {
+            self.screen.input("key space");
+            read_session(&self.session).ok()
+        });
+        let header = record.header;
+        assert_eq!(header.protocol, self.protocol);
+        self.expected = Experiment::new(header.protocol, header.seed, header.participant_number).unwrap();
         self.given.clear();
         self.moments = 0;
     }
