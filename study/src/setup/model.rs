@@ -5,8 +5,6 @@ use std::path::Path;
 use jiff::Timestamp;
 use scumble_psychophysics::{Consent, Display, Language};
 
-use crate::session_folder::Found;
-
 use super::about::About;
 use super::calibration::Calibration;
 use super::consent::ConsentText;
@@ -221,7 +219,6 @@ impl Setup {
         if let Some(page) = self.pages().into_iter().find(|page| self.problem_of(*page).is_some()) {
             return Err(page);
         }
-        let Some(Found::Free(directory)) = self.study.found() else { return Err(Page::Study) };
         let study = self.study.opened().ok_or(Page::Study)?.study.clone();
         let viewing_distance_mm = self.calibration.distance_mm().map_err(|_| Page::Screen)?;
         let luminance_table = self.luminance().map(|table| table.rows.clone());
@@ -229,7 +226,6 @@ impl Setup {
             participant: self.study.participant().to_owned(),
             participant_number: self.study.participant_number().ok_or(Page::Study)?,
             study,
-            directory: directory.clone(),
             language: self.language,
             consent: self.agreed.clone().filter(|_| self.has_agreed()),
             demographics: self.about.demographics().map_err(|_| Page::About)?,

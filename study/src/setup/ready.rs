@@ -1,7 +1,5 @@
 //! What the set-up leads to: everything that a session needs before its first trial.
 
-use std::path::PathBuf;
-
 use scumble_psychophysics::{Consent, Demographics, Display, Language, SessionHeader, Software};
 
 use super::{LuminanceTable, StudyFolder};
@@ -11,8 +9,6 @@ use super::{LuminanceTable, StudyFolder};
 pub(crate) struct Ready {
     /// The study, whose protocol is to be kept when the session begins.
     pub(crate) study: StudyFolder,
-    /// Where the session goes.
-    pub(crate) directory: PathBuf,
     /// Code of the participant, checked.
     pub(crate) participant: String,
     /// Number of the participant, which a Latin square of rounds is read at.

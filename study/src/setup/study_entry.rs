@@ -64,6 +64,12 @@ impl StudyEntry {
         &self.folder
     }
 
+    /// The whole path of the study, where only a part of it was typed.
+    pub(crate) fn whole_path(&self) -> Option<String> {
+        let whole = self.opened()?.study.directory().display().to_string();
+        (whole != self.folder.trim()).then_some(whole)
+    }
+
     /// The participant's code as it was typed.
     pub(crate) fn participant(&self) -> &str {
         &self.participant
@@ -200,14 +206,15 @@ impl StudyEntry {
     }
 }
 
-/// The path that was typed; `~` is the user's own folder, as in a shell.
+/// The whole of the path that was typed; `~` is the user's own folder, as in a shell.
 fn path_of(typed: &str) -> PathBuf {
     let typed = typed.trim();
-    match (typed.strip_prefix('~'), dirs::home_dir()) {
+    let path = match (typed.strip_prefix('~'), dirs::home_dir()) {
         (Some(""), Some(home)) => home,
         (Some(rest), Some(home)) if rest.starts_with(std::path::is_separator) => home.join(&rest[1..]),
         _ => PathBuf::from(typed),
-    }
+    };
+    std::path::absolute(&path).unwrap_or(path)
 }
 
 /// Whether a session header takes this code.
@@ -226,11 +233,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_path_may_begin_with_the_users_own_folder() {
+    fn a_path_may_begin_with_the_users_own_folder_or_where_the_program_was_started() {
         let home = dirs::home_dir().unwrap();
         assert_eq!(path_of(" ~/studies/one "), home.join("studies/one"));
         assert_eq!(path_of("~"), home);
-        assert_eq!(path_of("~other/one"), PathBuf::from("~other/one"));
-        assert_eq!(path_of("one two"), PathBuf::from("one two"));
+        let here = std::env::current_dir().unwrap();
+        assert_eq!(path_of("~other/one"), here.join("~other/one"));
+        assert_eq!(path_of("one two"), here.join("one two"));
     }
 }

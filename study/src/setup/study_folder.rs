@@ -97,8 +97,11 @@ impl StudyFolder {
         let directory = std::path::absolute(&self.directory).unwrap_or_else(|_| self.directory.clone());
         let there = directory.ancestors().find(|folder| folder.exists()).unwrap_or(&directory);
         let file = there.join(format!(".scumble-study-{}", std::process::id()));
-        let written = std::fs::File::create_new(&file).and_then(|_| std::fs::remove_file(&file));
-        written.map_err(|reason| FolderProblem::NotWritable { path: there.into(), reason })
+        match std::fs::File::create_new(&file).and_then(|_| std::fs::remove_file(&file)) {
+            // One that is there could be made.
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
+            probed => probed.map_err(|reason| FolderProblem::NotWritable { path: there.into(), reason }),
+        }
     }
 
     /// Makes the folder and puts the protocol into it, for every later participant; does nothing where

@@ -118,11 +118,12 @@ fn a_monitor_and_what_to_do_with_an_interrupted_session_are_asked_of_the_program
 
     let offered =
         [("Go on with it", Choice::Resume), ("Repeat its round", Choice::RepeatRound), ("Discard it", Choice::Discard)];
+    let directory = std::env::current_dir().unwrap().join(NEW).join("p07");
     for (label, choice) in offered {
         let find = |study: &Path, code: &str| Ok(Found::Interrupted(interrupted(study.join(code))));
         let harness = at_720(Setup::new(Given { find: Box::new(find), ..given(Path::new(NEW)) }));
         harness.get_by_label(label).click();
-        assert_eq!(asked(harness), Some(SetupAction::Interrupted(Path::new(NEW).join("p07"), choice)));
+        assert_eq!(asked(harness), Some(SetupAction::Interrupted(directory.clone(), choice)));
     }
 }
 

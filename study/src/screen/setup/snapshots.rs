@@ -21,7 +21,7 @@ fn shot(setup: Setup, name: &str) {
 
 #[test]
 fn the_first_page_shows_a_new_study() {
-    shot(new_study(), "study");
+    shot(Setup::new(given(Path::new(NEW_WHOLE))), "study");
 }
 
 #[test]
@@ -36,13 +36,14 @@ fn the_first_page_offers_recent_studies_to_who_names_none() {
 #[test]
 fn the_first_page_says_how_to_go_on_with_an_interrupted_session() {
     let find = Box::new(|study: &Path, code: &str| Ok(Found::Interrupted(interrupted(study.join(code)))));
-    let setup = Setup::new(Given { find, ..given(Path::new(NEW)) });
+    let setup = Setup::new(Given { find, ..given(Path::new(NEW_WHOLE)) });
     shot(setup, "interrupted");
 }
 
 #[test]
 fn the_first_page_names_what_is_wrong() {
-    shot(Setup::new(given(Path::new("Cargo.toml"))), "problem");
+    let participant = "Erika Mustermann".to_owned();
+    shot(Setup::new(Given { participant, ..given(Path::new(NEW_WHOLE)) }), "problem");
 }
 
 #[test]
@@ -117,7 +118,7 @@ fn the_summary_shows_what_will_be_recorded_and_what_is_missing() {
 
 #[test]
 fn the_first_page_fits_the_german_words() {
-    shot(Setup::new(Given { language: Language::German, ..given(Path::new(NEW)) }), "study_german");
+    shot(Setup::new(Given { language: Language::German, ..given(Path::new(NEW_WHOLE)) }), "study_german");
 }
 
 #[test]
@@ -148,7 +149,7 @@ fn a_picture_with_another_letter_fails_the_comparison() {
     std::fs::copy(Path::new("tests/snapshots").join(name), known.path().join(name)).unwrap();
     let options = SnapshotOptions::new().output_path(known.path());
     for (code, is_known) in [("p07", true), ("p01", false)] {
-        let mut harness = settled(Setup::new(Given { participant: code.to_owned(), ..given(Path::new(NEW)) }));
+        let mut harness = settled(Setup::new(Given { participant: code.to_owned(), ..given(Path::new(NEW_WHOLE)) }));
         let picture = harness.render().unwrap();
         assert_eq!(egui_kittest::try_image_snapshot_options(&picture, "setup_study", &options).is_ok(), is_known);
     }

@@ -48,6 +48,9 @@ fn folder(ui: &mut Ui, setup: &mut Setup, words: &SetupWords) -> bool {
     if let Some(dropped) = dropped {
         setup.pick_folder(&dropped);
     }
+    if let Some(path) = setup.study().whole_path() {
+        widgets::small(ui, path);
+    }
     typed.entered && setup.study().opened().is_some()
 }
 

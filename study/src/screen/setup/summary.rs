@@ -27,7 +27,7 @@ pub(super) fn summary(ui: &mut Ui, setup: &Setup, words: &SetupWords) {
     ui.spacing_mut().item_spacing.y *= 0.75;
     // Name, value, and whether it is missing.
     let mut fact = |name, value: String, is_missing| widgets::fact(ui, name, &value, is_missing);
-    fact(words.folder, ready.study.directory().display().to_string(), false);
+    fact(words.folder, setup.study().folder().to_owned(), false);
     fact(words.protocol, protocol.name.clone(), false);
     fact(words.language, language.to_owned(), false);
     let number = setup.study().number_matters().then_some(ready.participant_number);

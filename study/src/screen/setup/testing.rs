@@ -57,6 +57,8 @@ pub(super) fn at_720(setup: Setup) -> Harness<'static, Shown> {
 pub(super) const MEASURED: &str = "tests/setup/measured";
 /// A study that is not there yet.
 pub(super) const NEW: &str = "study1";
+/// One with a whole path, which the first page then does not have to tell.
+pub(super) const NEW_WHOLE: &str = "/studies/study1";
 
 pub(super) fn new_study() -> Setup {
     Setup::new(given(Path::new(NEW)))

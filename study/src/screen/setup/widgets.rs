@@ -110,9 +110,9 @@ pub(super) fn radio(ui: &mut Ui, is_chosen: bool, name: &str) -> bool {
     ui.scope(draw).inner
 }
 
-/// Small type below something.
+/// A line of small type below something, cut off where there is no room.
 pub(super) fn small(ui: &mut Ui, text: impl Into<String>) {
-    ui.label(RichText::new(text).small().color(theme::FAINT_INK));
+    ui.add(Label::new(RichText::new(text).small().color(theme::FAINT_INK)).truncate());
 }
 
 /// A margin of whole points, which is what egui has.
