@@ -6,6 +6,8 @@
 
 mod arguments;
 mod clock;
+#[allow(dead_code, unused_imports, reason = "the program does not show it yet")]
+mod desk;
 mod display;
 mod keys;
 mod outcome;

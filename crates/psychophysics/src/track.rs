@@ -92,11 +92,23 @@ impl Track {
 
     /// Its threshold as a ratio.
     pub fn estimate(&self) -> Estimate {
+        Estimate::of(&self.staircase)
+    }
+
+    /// The ratio at which its prior is centred.
+    pub fn prior_ratio(&self) -> f64 {
+        self.prior_ratio
+    }
+}
+
+impl Estimate {
+    /// The threshold that a staircase of log10 texels over radius tells.
+    pub fn of(staircase: &Staircase) -> Self {
         let ratio = |intensity: f64| libm::exp10(-intensity);
-        Estimate {
-            ratio: ratio(self.staircase.mean()),
-            ratio_interval90: (ratio(self.staircase.quantile(0.95)), ratio(self.staircase.quantile(0.05))),
-            sd_log10: self.staircase.sd(),
+        Self {
+            ratio: ratio(staircase.mean()),
+            ratio_interval90: (ratio(staircase.quantile(0.95)), ratio(staircase.quantile(0.05))),
+            sd_log10: staircase.sd(),
         }
     }
 }

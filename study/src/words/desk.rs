@@ -1,10 +1,71 @@
 //! The texts of the administrator's window.
 
+mod english;
+mod german;
+
+use scumble_psychophysics::{Condition, Reason};
+
+use crate::desk::{Activity, Barrier, Chart, MinutesLeft, Point, Round, Status, Tally};
+
+pub(super) use english::ENGLISH;
+pub(super) use german::GERMAN;
+
 /// See [`super::Words::desk`].
+///
+/// A function takes what is to be said and gives whole sentences, since languages build them differently.
 pub(crate) struct DeskWords {
     pub(crate) title: &'static str,
+
+    // Header.
+    pub(crate) activity: fn(Activity) -> String,
+    /// Seconds since the session began.
+    pub(crate) elapsed: fn(f64) -> String,
+    pub(crate) saved: &'static str,
+    pub(crate) waiting: fn(&str) -> String,
+    pub(crate) dark: &'static str,
+    pub(crate) light: &'static str,
+
+    // Progress.
+    pub(crate) round: fn(&Round) -> String,
+    pub(crate) condition: fn(&Condition) -> String,
+    pub(crate) round_state: fn(&Round) -> String,
+    pub(crate) trials: fn(&Status) -> String,
+    pub(crate) minutes_left: fn(Option<MinutesLeft>) -> String,
+    pub(crate) lines: fn(Tally) -> String,
+    pub(crate) catch_trials: fn(Tally) -> String,
+    pub(crate) missed_frames: fn(u32) -> String,
+
+    // Charts.
+    /// Texel size in pixels.
+    pub(crate) texel: fn(f64) -> String,
+    pub(crate) x_axis: &'static str,
+    pub(crate) y_axis: &'static str,
+    pub(crate) estimate: fn(&Chart) -> String,
+    pub(crate) point: fn(&Point) -> String,
+    pub(crate) verdict: fn(&Chart) -> String,
+    pub(crate) reason: fn(&Reason) -> String,
+    pub(crate) legend_two: &'static str,
+    pub(crate) legend_one: &'static str,
+
+    // Orders.
+    pub(crate) pause: &'static str,
+    pub(crate) resume: &'static str,
+    pub(crate) repeat_practice: &'static str,
+    pub(crate) repeat_round: &'static str,
+    pub(crate) stop: &'static str,
+    pub(crate) barrier: fn(Barrier) -> &'static str,
+    /// Round, and number of its answers.
+    pub(crate) ask_repeat_round: fn(u32, u32) -> String,
+    pub(crate) ask_stop: fn(&Status) -> String,
+    pub(crate) yes_repeat_round: &'static str,
+    pub(crate) yes_stop: &'static str,
+    pub(crate) cancel: &'static str,
+
+    // Notes.
+    pub(crate) note: &'static str,
+    pub(crate) note_hint: &'static str,
+    pub(crate) add_note: &'static str,
+    /// Seconds since the session began, and the text.
+    pub(crate) noted: fn(f64, &str) -> String,
+    pub(crate) no_notes: &'static str,
 }
-
-pub(super) const ENGLISH: DeskWords = DeskWords { title: "Scumble study: administrator" };
-
-pub(super) const GERMAN: DeskWords = DeskWords { title: "Scumble-Studie: Versuchsleitung" };

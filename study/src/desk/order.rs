@@ -1,0 +1,60 @@
+//! What the administrator can order, and what stands in the way of it.
+
+use scumble_psychophysics::Stage;
+
+use super::Status;
+
+/// What the session is to do. The session carries it out; the panel only asks for it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// Hide the pictures.
+    Pause,
+    /// Go on after a pause.
+    Resume,
+    /// Put a note into the record.
+    Note(String),
+    /// Practice once more.
+    RepeatPractice,
+    /// The round under way once more; its answers do not stand.
+    RepeatRound,
+    /// End the session early.
+    Stop,
+}
+
+/// Why an order cannot be given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Barrier {
+    /// The participant is at the instructions: there is no record yet.
+    NotBegun,
+    /// The session is over.
+    Over,
+    AlreadyPaused,
+    NotPaused,
+    /// Practice comes before a round or in a rest, not between trials.
+    BetweenTrials,
+    /// The protocol has no practice.
+    NoPractice,
+    /// The round under way has no answers that could be replaced.
+    RoundUnanswered,
+}
+
+impl Status {
+    /// What stands in the way of an order; `None` where it can be given.
+    pub(crate) fn barrier(&self, order: &Order) -> Option<Barrier> {
+        if self.is_over {
+            return Some(Barrier::Over);
+        }
+        // Before the record begins an order would leave no trace.
+        if !self.has_begun {
+            return Some(Barrier::NotBegun);
+        }
+        match order {
+            Order::Note(_) | Order::Stop => None,
+            Order::Pause => self.is_paused.then_some(Barrier::AlreadyPaused),
+            Order::Resume => (!self.is_paused).then_some(Barrier::NotPaused),
+            Order::RepeatPractice if !self.has_practice => Some(Barrier::NoPractice),
+            Order::RepeatPractice => matches!(self.stage, Stage::Trial(_)).then_some(Barrier::BetweenTrials),
+            Order::RepeatRound => (!self.can_repeat_round).then_some(Barrier::RoundUnanswered),
+        }
+    }
+}
