@@ -22,6 +22,11 @@ pub(crate) fn pause(context: &egui::Context) -> bool {
     pressed(context).contains(&Key::Escape)
 }
 
+/// Whether somebody asked for the administrator's panel in this frame.
+pub(crate) fn administrator(context: &egui::Context) -> bool {
+    pressed(context).contains(&Key::F10)
+}
+
 /// What a key answers: the arrows, F and J by the place of the answer, Y and N by its word.
 fn answer_of(key: Key, answers: [Answer; 2]) -> Option<Answer> {
     match key {

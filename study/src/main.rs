@@ -4,9 +4,9 @@
 //! [`scumble_stimuli`] draws it; the shell shows pictures texel for pixel, measures response times,
 //! and puts every answer on disk before the next picture.
 
+mod administrator;
 mod arguments;
 mod clock;
-#[allow(dead_code, unused_imports, reason = "the program does not show it yet")]
 mod desk;
 mod display;
 mod keys;

@@ -88,11 +88,11 @@ mod tests {
         discard(&first).unwrap();
         let (second, mut sitting) = begin(&study);
         assert_eq!(second, study.join("p07.2"));
-        sitting.stop().unwrap();
+        sitting.stop();
         let (third, mut sitting) = begin(&study);
         assert_eq!(third, study.join("p07.3"));
         assert!(discard(&third).is_err(), "it is being written");
-        sitting.stop().unwrap();
+        sitting.stop();
         assert_eq!(find(&study, "p08").unwrap(), Found::Free(study.join("p08")));
     }
 }

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 use scumble_psychophysics::{Answer, Language, Stage};
 
+use crate::administrator::Administrator;
+use crate::desk::Order;
 use crate::display::display;
 use crate::keys;
 use crate::outcome::Outcome;
@@ -32,6 +34,7 @@ pub(crate) struct SessionView {
     /// Something that the program cannot work around.
     fatal: Option<String>,
     retry_at: Instant,
+    administrator: Administrator,
 }
 
 impl SessionView {
@@ -48,6 +51,7 @@ impl SessionView {
             examples: screen::Examples::default(),
             fatal: None,
             retry_at: Instant::now(),
+            administrator: Administrator::new(&words(language).desk),
         }
     }
 
@@ -103,11 +107,8 @@ impl SessionView {
                 sitting.proceed(|| display(frame).map(|display| self.measured.clone().complete(display)))?;
             }
             Action::Answer(answer) => self.answer(answer)?,
-            Action::Pause => {
-                self.presentation = None;
-                sitting.pause();
-            }
-            Action::Continue => sitting.go_on()?,
+            Action::Pause => self.hide_pictures(),
+            Action::Continue => sitting.go_on(),
             Action::Retry => {
                 self.retry_at = Instant::now() + RETRY;
                 sitting.retry();
@@ -128,7 +129,7 @@ impl SessionView {
     /// What a simulated person sees.
     fn scene(&self) -> Scene<'_> {
         let sitting = &self.sitting;
-        if self.fatal.is_some() || sitting.recorder().problem().is_some() {
+        if self.fatal.is_some() || sitting.recorder().problem().is_some() || self.administrator.covers_screen() {
             return Scene::Waiting;
         }
         if sitting.is_paused() {
@@ -197,15 +198,57 @@ impl SessionView {
 
     /// One frame.
     pub(crate) fn ui(&mut self, ui: &mut egui::Ui, frame: &eframe::Frame) {
-        let acted = match self.show(ui, frame) {
-            Ok(None) => return,
-            Ok(Some(action)) => self.act(action, ui, frame),
-            Err(error) => Err(error),
-        };
-        if let Err(error) = acted {
+        if let Err(error) = self.turn(ui, frame) {
             self.stop(&error);
+            ui.request_repaint();
         }
-        ui.request_repaint();
+    }
+
+    /// Does what the administrator ordered, then shows the participant what is to be seen and does what they
+    /// asked for.
+    fn turn(&mut self, ui: &mut egui::Ui, frame: &eframe::Frame) -> anyhow::Result<()> {
+        let mut orders = self.administrator.attend(ui.ctx(), frame);
+        if self.administrator.covers_screen() {
+            if !self.sitting.is_paused() {
+                self.obey(Order::Pause);
+            }
+            self.administrator.tell(ui.ctx(), &self.sitting)?;
+            orders.extend(self.administrator.show(ui));
+        } else if let Some(action) = self.show(ui, frame)? {
+            self.act(action, ui, frame)?;
+            self.administrator.note_news();
+            ui.request_repaint();
+        }
+        for order in orders {
+            self.obey(order);
+            ui.request_repaint();
+        }
+        self.administrator.tell(ui.ctx(), &self.sitting)
+    }
+
+    /// Does what the administrator ordered.
+    fn obey(&mut self, order: Order) {
+        match order {
+            Order::Pause => self.hide_pictures(),
+            Order::Resume => {
+                self.administrator.uncover_screen();
+                self.sitting.go_on();
+            }
+            Order::Note(note) => self.sitting.note(note),
+            Order::RepeatPractice => self.sitting.repeat_practice(),
+            Order::RepeatRound => {
+                self.presentation = None;
+                self.sitting.repeat_round();
+            }
+            Order::Stop => self.sitting.stop(),
+        }
+        self.administrator.note_news();
+    }
+
+    /// Pauses; the trial under way is shown anew afterwards.
+    fn hide_pictures(&mut self) {
+        self.presentation = None;
+        self.sitting.pause();
     }
 }
 

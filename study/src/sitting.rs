@@ -71,6 +71,11 @@ impl Sitting {
         &self.clock
     }
 
+    /// Seconds since it began, on a clock that never runs backwards.
+    pub(crate) fn elapsed_secs(&self) -> f64 {
+        self.clock.at(Instant::now())
+    }
+
     /// Whether the pictures are hidden until someone goes on.
     pub(crate) fn is_paused(&self) -> bool {
         self.pause.is_some()
@@ -113,17 +118,16 @@ impl Sitting {
     }
 
     /// Goes on after a pause.
-    pub(crate) fn go_on(&mut self) -> anyhow::Result<()> {
+    pub(crate) fn go_on(&mut self) {
         if let Some(pause) = self.pause.take() {
             let interrupted_secs = Some(pause.earlier_secs + pause.began_at.elapsed().as_secs_f64());
             self.recorder.append(Event::Resume(Moment { interrupted_secs, ..moment(pause.notes) }));
             // A round that has no answer yet is as good as repeated.
-            if pause.repeats_round && self.can_repeat_round() {
-                self.repeat_round()?;
+            if pause.repeats_round {
+                self.repeat_round();
             }
             self.end_if_finished();
         }
-        Ok(())
     }
 
     /// Puts a note of the administrator into the record.
@@ -131,31 +135,26 @@ impl Sitting {
         self.recorder.append(Event::Note(moment(vec![note])));
     }
 
-    /// The practice once more.
-    pub(crate) fn repeat_practice(&mut self) -> anyhow::Result<()> {
-        self.experiment.repeat_practice()?;
-        self.recorder.append(Event::RepeatPractice(moment(Vec::new())));
-        Ok(())
-    }
-
-    /// Whether the round under way has answers that could be thrown away.
-    pub(crate) fn can_repeat_round(&self) -> bool {
-        self.experiment.clone().repeat_round().is_ok()
+    /// The practice once more; an order that comes too late for it does nothing, as the two below.
+    pub(crate) fn repeat_practice(&mut self) {
+        if self.experiment.repeat_practice().is_ok() {
+            self.recorder.append(Event::RepeatPractice(moment(Vec::new())));
+        }
     }
 
     /// The round under way once more; its answers do not stand.
-    pub(crate) fn repeat_round(&mut self) -> anyhow::Result<()> {
-        self.experiment.repeat_round()?;
-        self.recorder.append(Event::RepeatRound(moment(Vec::new())));
-        Ok(())
+    pub(crate) fn repeat_round(&mut self) {
+        if self.experiment.repeat_round().is_ok() {
+            self.recorder.append(Event::RepeatRound(moment(Vec::new())));
+        }
     }
 
     /// Ends the session early.
-    pub(crate) fn stop(&mut self) -> anyhow::Result<()> {
-        self.experiment.stop()?;
-        self.recorder.append(Event::Stop(moment(Vec::new())));
-        self.pause = None;
-        Ok(())
+    pub(crate) fn stop(&mut self) {
+        if self.experiment.stop().is_ok() {
+            self.recorder.append(Event::Stop(moment(Vec::new())));
+            self.pause = None;
+        }
     }
 
     /// Tries again to write what the disk has refused.

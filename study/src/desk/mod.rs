@@ -29,5 +29,5 @@ pub(crate) use chart::{Chart, Point};
 pub(crate) use minutes::MinutesLeft;
 pub(crate) use order::{Barrier, Order};
 pub(crate) use panel::{DeskState, show};
-pub(crate) use status::{Activity, Disk, Given, Note, Round, RoundState, Status, Tally};
+pub(crate) use status::{Activity, Disk, Given, Round, RoundState, Status, Tally};
 pub(crate) use window::{DeskWindow, other_monitor};

@@ -1,0 +1,117 @@
+//! The administrator's side of a session: where the panel is, what it is told, and what is ordered there.
+//!
+//! With a second monitor the panel is a window on it. With one it is a page over the participant's screen,
+//! which F10 opens and closes; the session is paused under it.
+
+use eframe::egui;
+
+use crate::desk::{self, Bands, DeskState, DeskWindow, Disk, Given, Order, Status, other_monitor};
+use crate::keys;
+use crate::sitting::Sitting;
+use crate::words::desk::DeskWords;
+
+/// The administrator of a session.
+pub(crate) struct Administrator {
+    words: &'static DeskWords,
+    place: Place,
+    bands: Bands,
+    /// Whether something has happened that the panel does not show.
+    has_news: bool,
+}
+
+enum Place {
+    /// Until the first frame, when the monitors are known.
+    Unknown,
+    Window(DeskWindow),
+    /// Over the participant's screen.
+    Page {
+        status: Option<Status>,
+        state: DeskState,
+        is_open: bool,
+    },
+}
+
+impl Administrator {
+    pub(crate) fn new(words: &'static DeskWords) -> Self {
+        Self { words, place: Place::Unknown, bands: Bands::default(), has_news: true }
+    }
+
+    /// Keeps the window open, opens or closes the panel where somebody asked for it, and gives the orders of the
+    /// window; to be called in every frame.
+    pub(crate) fn attend(&mut self, context: &egui::Context, frame: &eframe::Frame) -> Vec<Order> {
+        if let Place::Unknown = self.place {
+            self.place = match other_monitor(frame) {
+                Some(corner) => Place::Window(DeskWindow::new(self.words, Some(corner))),
+                None => Place::Page { status: None, state: DeskState::default(), is_open: false },
+            };
+        }
+        let is_asked_for = keys::administrator(context);
+        match &mut self.place {
+            Place::Window(window) => {
+                if is_asked_for {
+                    window.toggle(context);
+                }
+                window.show(context);
+                window.take_orders()
+            }
+            Place::Page { is_open, .. } => {
+                *is_open ^= is_asked_for;
+                Vec::new()
+            }
+            Place::Unknown => Vec::new(),
+        }
+    }
+
+    /// Whether the panel is over the participant's screen.
+    pub(crate) fn covers_screen(&self) -> bool {
+        matches!(self.place, Place::Page { is_open: true, .. })
+    }
+
+    /// The panel over the participant's screen.
+    pub(crate) fn show(&mut self, ui: &mut egui::Ui) -> Option<Order> {
+        match &mut self.place {
+            Place::Page { status: Some(status), state, .. } => desk::show(ui, status, state, self.words),
+            _ => None,
+        }
+    }
+
+    /// Leaves the participant's screen to the participant.
+    pub(crate) fn uncover_screen(&mut self) {
+        if let Place::Page { is_open, .. } = &mut self.place {
+            *is_open = false;
+        }
+    }
+
+    /// Something has happened.
+    pub(crate) fn note_news(&mut self) {
+        self.has_news = true;
+    }
+
+    /// Shows the session as it is, where that is news. Errors: those of [`Status::of`].
+    pub(crate) fn tell(&mut self, context: &egui::Context, sitting: &Sitting) -> anyhow::Result<()> {
+        if !std::mem::take(&mut self.has_news) {
+            return Ok(());
+        }
+        let recorder = sitting.recorder();
+        let disk = match recorder.problem() {
+            Some(problem) => Disk::Waiting { problem: problem.into() },
+            None => Disk::Saved,
+        };
+        let given = Given {
+            experiment: sitting.experiment(),
+            header: recorder.header(),
+            events: recorder.events(),
+            elapsed_secs: sitting.elapsed_secs(),
+            has_begun: recorder.has_begun(),
+            is_paused: sitting.is_paused(),
+            disk,
+        };
+        let status = Status::of(given, &mut self.bands)?;
+        match &mut self.place {
+            Place::Window(window) => window.publish(context, status),
+            Place::Page { status: shown, .. } => *shown = Some(status),
+            Place::Unknown => {}
+        }
+        Ok(())
+    }
+}
