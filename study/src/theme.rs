@@ -66,6 +66,7 @@ fn visuals() -> Visuals {
     visuals.weak_text_color = Some(Color32::from_gray(68));
     visuals.selection.bg_fill = HOVERED;
     visuals.selection.stroke.color = INK;
+    visuals.text_cursor.stroke.color = INK;
     let widgets = &mut visuals.widgets;
     for (state, fill) in
         [(&mut widgets.inactive, RAISED), (&mut widgets.hovered, HOVERED), (&mut widgets.active, PRESSED)]

@@ -129,3 +129,78 @@ pub(crate) struct SetupWords {
 fn told(names: [&'static str; 3], answer: Option<usize>) -> Option<&'static str> {
     answer.and_then(|index| names.get(index).copied())
 }
+
+#[cfg(test)]
+mod tests {
+    use scumble_psychophysics::{Error, Experience, Gender};
+
+    use super::*;
+    use crate::session_folder::{Found, Interrupted};
+    use crate::setup::ConsentProblem;
+
+    const BOTH: [&SetupWords; 2] = [&ENGLISH, &GERMAN];
+
+    #[test]
+    fn every_problem_holds_what_was_found() {
+        let folder = FolderProblem::NotAFolder("found".into());
+        let other = ConsentProblem::OtherLanguage { found: "found".into(), missing: "consent.en.txt" };
+        let unreadable = ConsentProblem::Unreadable { file: "found".into(), reason: "empty".into() };
+        let damaged = Error::SessionInUse("found".into());
+        let problems = [
+            Problem::Folder(&folder),
+            Problem::Consent(&other),
+            Problem::Consent(&unreadable),
+            Problem::Luminance("found"),
+            Problem::NotACode("found"),
+            Problem::NotANumber("found"),
+            Problem::Damaged(&damaged),
+            Problem::NotADistance("found".into()),
+            Problem::NotAnAge("found".into()),
+        ];
+        for (problem, words) in problems.iter().flat_map(|problem| BOTH.map(|words| (problem, words))) {
+            let sentence = (words.problem)(problem);
+            assert!(sentence.contains("found"), "{sentence}");
+        }
+    }
+
+    #[test]
+    fn an_interruption_is_told_in_the_largest_unit_that_says_something() {
+        let told = |age_secs: f64| {
+            let session = Interrupted { directory: "p07".into(), age_secs, trials: 83, trials_at_most: 240 };
+            BOTH.map(|words| (words.problem)(&Problem::Session(&Found::Interrupted(session.clone()))))
+        };
+        for (age_secs, english, german) in [
+            (30.0, "a moment ago", "vor einem Moment"),
+            (725.0, "12 minutes ago", "vor 12 Minuten"),
+            (5400.0, "90 minutes ago", "vor 90 Minuten"),
+            (129_600.0, "36 hours ago", "vor 36 Stunden"),
+            (604_800.0, "7 days ago", "vor 7 Tagen"),
+        ] {
+            let [in_english, in_german] = told(age_secs);
+            assert!(in_english.contains(english) && in_english.contains("83 of at most 240"), "{in_english}");
+            assert!(in_german.contains(german) && in_german.contains("83 von höchstens 240"), "{in_german}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_written_as_the_language_writes_them() {
+        let sizes = [(5.0, 7.56)];
+        assert_eq!(BOTH.map(|words| (words.distance_value)(Some(625.0))), ["62.5 cm", "62,5 cm"]);
+        assert_eq!(BOTH.map(|words| (words.pixel_size_value)(Some(3.789))), ["3.79", "3,79"]);
+        assert!((ENGLISH.texels_value)(&sizes).contains("7.6'") && (GERMAN.texels_value)(&sizes).contains("7,6'"));
+        assert!((GERMAN.gamma_result)(Some(186)).starts_with("Stufe 186: ein Gamma von 2,20. Das liegt nahe"));
+        assert!((ENGLISH.gamma_result)(Some(174)).contains("not sRGB"));
+    }
+
+    #[test]
+    fn answers_are_told_by_the_names_that_were_picked() {
+        let about = Demographics {
+            age_years: Some(27),
+            gender: Some(Gender::Other),
+            graphics_experience: Some(Experience::Expert),
+            ..Demographics::default()
+        };
+        assert_eq!((ENGLISH.about_value)(Some(&about)), "27 years, other, graphics: expert");
+        assert_eq!((GERMAN.about_value)(Some(&about)), "27 Jahre, divers, Grafik: vom Fach");
+    }
+}
