@@ -14,7 +14,7 @@ use scumble_analysis::{
     read_quest_config, read_responses, replay_session, session_directories, with_false_alarms, with_slope,
     write_summaries,
 };
-use scumble_psychophysics::{ObserverModel, Protocol, read_session};
+use scumble_psychophysics::{ObserverModel, Protocol, Session, read_session};
 
 /// From the sessions of a study to relation.json, the file that a renderer reads.
 #[derive(Parser)]
@@ -340,11 +340,21 @@ fn replay(paths: &[PathBuf]) -> anyhow::Result<()> {
                 replayed.trials,
                 replayed.practice,
                 replayed.staircases,
-                if session.is_complete() { "" } else { "; not finished" },
+                how_it_ended(&session),
             );
         }
     }
     Ok(())
+}
+
+/// What is to be said of a session that is not complete.
+fn how_it_ended(session: &Session) -> &'static str {
+    match session {
+        session if session.is_complete() => "",
+        session if session.is_discarded() => "; discarded",
+        session if session.is_closed() => "; ended early",
+        _ => "; not finished",
+    }
 }
 
 /// Writes the dataset and prints a line a session; notices go to the error stream.

@@ -1,12 +1,13 @@
 //! Sessions become people with answers.
 //!
 //! The convergence rule is the experiment's own, which replayed every session. Sessions of one participant code
-//! are one person. All sessions must share one protocol; simulated people and humans are not mixed.
+//! are one person. All sessions must share one protocol; simulated people and humans are not mixed. A session that
+//! the administrator discarded is left out with a notice; of one that was ended early the answers count.
 
 use std::{collections::BTreeMap, path::PathBuf};
 
 use scumble_core::SessionHash;
-use scumble_psychophysics::{Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Reason};
+use scumble_psychophysics::{Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Reason, Role};
 
 use crate::{
     Error,
@@ -56,7 +57,7 @@ pub struct Person {
 }
 
 impl Person {
-    /// The person who gave the answers `events` in an experiment.
+    /// The person who gave the answers of `events` in an experiment; those that do not stand are left out.
     pub fn of(code: &str, experiment: &Experiment, events: &[Event]) -> Self {
         let runs_of = |condition: &Condition| {
             let here = experiment.tracks().iter().filter(|track| track.condition() == condition);
@@ -91,28 +92,37 @@ pub struct Study {
 }
 
 impl Study {
-    /// Reads sessions; each path is a session or a folder of sessions.
+    /// Reads sessions; each path is a session or a folder of sessions. Discarded ones are left out with a notice.
     ///
     /// # Errors
     /// Names the folder without sessions, the damaged file and line, the session with another
     /// protocol, or the copy of a session.
     pub fn read(paths: &[PathBuf]) -> Result<Self, Error> {
-        let loaded = load_sessions(paths)?;
+        let (loaded, discarded): (Vec<_>, Vec<_>) =
+            load_sessions(paths)?.into_iter().partition(|(loaded, _)| !loaded.session.is_discarded());
+        let left_out = discarded.iter().map(|(LoadedSession { session, .. }, _)| {
+            format!("{}: the administrator discarded the session; it is left out", session.directory.display())
+        });
+        let mut notices: Vec<String> = left_out.collect();
         check_alike(&loaded)?;
         let Some((first, _)) = loaded.first() else {
-            return Err(Error::CannotFit("no session was given".to_owned()));
+            let reason = match notices.is_empty() {
+                true => "no session was given".to_owned(),
+                false => notices.join("; "),
+            };
+            return Err(Error::CannotFit(reason));
         };
 
         let protocol = first.session.header.protocol.clone();
         let mut people: BTreeMap<String, Person> = BTreeMap::new();
-        let mut notices = Vec::new();
         for (LoadedSession { session, .. }, experiment) in &loaded {
             notices.extend(session.notices.iter().cloned());
             if !session.is_complete() {
                 let directory = session.directory.display();
                 let progress = experiment.progress();
+                let how = if session.is_closed() { "was ended early" } else { "was not finished" };
                 notices.push(format!(
-                    "{directory}: the session was not finished: round {} of {}, {} trials",
+                    "{directory}: the session {how}: round {} of {}, {} trials",
                     progress.round, progress.rounds, progress.trials
                 ));
             }
@@ -152,8 +162,8 @@ fn check_alike(loaded: &[(LoadedSession, Experiment)]) -> Result<(), Error> {
     let Some((first, _)) = loaded.first() else { return Ok(()) };
     let first = &first.session;
     for (LoadedSession { session, .. }, _) in loaded {
-        if !session.events.iter().any(|event| matches!(event, Event::Trial(_))) {
-            let reason = "the session has no measured trial; leave it out".to_owned();
+        if !session.standing().iter().any(|answered| answered.trial.role == Role::Measure) {
+            let reason = "the session has no measured trial that stands; leave it out".to_owned();
             return Err(Error::File { path: session.directory.join(EVENTS_FILE), reason });
         }
         if session.header.protocol != first.header.protocol {

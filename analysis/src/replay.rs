@@ -36,7 +36,7 @@ pub fn hashed_pictures(session: &Session) -> usize {
 /// The first line of the record that differs, with what was found and what the seed leads to.
 pub fn replay_session(session: &Session, drawn: impl Fn(usize) + Sync) -> Result<Replayed, Error> {
     let experiment = session.replay()?;
-    let transfer = Transfer::srgb();
+    let transfer = session.header.transfer()?;
     let hashed: Vec<_> = answers(session).filter(|(_, answered)| !answered.pictures_sha256.is_empty()).collect();
     let difference = hashed.par_iter().find_map_first(|(line, answered)| {
         let found = check_pictures(session, *line, answered, &transfer);

@@ -62,7 +62,7 @@ struct ThresholdRow<'a> {
     reason: String,
 }
 
-/// All answers after practice as CSV: tidy, one row a trial. Thresholds use the rows whose role is
+/// All answers after practice that stand as CSV: tidy, one row a trial. Thresholds use the rows whose role is
 /// `measure`; `track` is the staircase of the session, counted from 0, and empty for a catch trial.
 ///
 /// # Errors
@@ -72,9 +72,8 @@ pub fn trials_csv(study: &Study) -> Result<String, Error> {
         let session = &loaded.session;
         let name = directory_name(&session.directory);
         session
-            .events
-            .iter()
-            .filter_map(|event| event.answered())
+            .standing()
+            .into_iter()
             .filter(|answered| answered.trial.role != Role::Practice)
             .map(move |answered| (session.header.participant.as_str(), name.clone(), answered))
     });

@@ -6,13 +6,19 @@ use std::{cell::Cell, fs, path::Path, sync::Mutex};
 
 use scumble_analysis::{Replayed, hashed_pictures, replay_session};
 use scumble_psychophysics::{
-    EVENTS_FILE, Experiment, Observer, ObserverModel, Protocol, Reply, SessionHeader, SessionWriter, Software, Stage,
-    read_session,
+    Display, EVENTS_FILE, Experiment, HEADER_FILE, Observer, ObserverModel, Protocol, Reply, SessionHeader,
+    SessionWriter, Software, Stage, read_session,
 };
-use scumble_stimuli::{Transfer, picture_sha256};
+use scumble_stimuli::picture_sha256;
 
-/// A session of 96 x 64 pixels, one pattern and one texel size, with the hashes of its pictures.
+/// A session of 96 x 64 pixels, one pattern and one texel size, with the hashes of its pictures, on an unmeasured
+/// display.
 fn record(directory: &Path, task: &str) {
+    record_on(directory, task, None);
+}
+
+/// The same on a display with this table of luminances.
+fn record_on(directory: &Path, task: &str, luminance_table: Option<Vec<(u8, f64)>>) {
     let mut protocol = Protocol::named(task).unwrap();
     (protocol.pictures.width_px, protocol.pictures.height_px) = (96, 64);
     protocol.conditions.patterns.truncate(1);
@@ -21,7 +27,10 @@ fn record(directory: &Path, task: &str) {
     protocol.practice.texel_px = 4.0;
     protocol.catch_trials = None;
     let software = Software::of("test", "0");
-    let header = SessionHeader::new("p-1", protocol.clone(), 5, jiff::Timestamp::UNIX_EPOCH, software);
+    let mut header = SessionHeader::new("p-1", protocol.clone(), 5, jiff::Timestamp::UNIX_EPOCH, software);
+    let (width_px, height_px, scale_factor) = (1920, 1200, 1.0);
+    header.display = Some(Display { width_px, height_px, scale_factor, luminance_table, ..Display::default() });
+    let transfer = header.transfer().unwrap();
     let mut experiment = Experiment::new(protocol, 5, header.participant_number).unwrap();
     let person = Observer::new(ObserverModel::default(), 1).unwrap();
     let mut writer = SessionWriter::create(directory, &header).unwrap();
@@ -30,8 +39,7 @@ fn record(directory: &Path, task: &str) {
             experiment.proceed().unwrap();
             continue;
         };
-        let hash =
-            |stimulus: &scumble_stimuli::Stimulus| picture_sha256(&stimulus.render(96, 64, &Transfer::srgb()).unwrap());
+        let hash = |stimulus: &scumble_stimuli::Stimulus| picture_sha256(&stimulus.render(96, 64, &transfer).unwrap());
         let pictures_sha256 = trial.pictures.all().into_iter().map(hash).collect();
         let reply = Reply {
             answer: person.answer(&trial, &experiment.protocol().pictures).unwrap(),
@@ -75,6 +83,21 @@ fn an_untouched_record_is_equal_picture_for_picture() {
         assert!(replayed.trials >= 10);
         assert_eq!((*drawn.lock().unwrap(), hashed_pictures(&session)), (replayed.pictures, replayed.pictures));
     }
+}
+
+#[test]
+fn pictures_are_drawn_again_for_the_light_that_the_header_has() {
+    let folder = tempfile::tempdir().unwrap();
+    let gamma_2 = vec![(0, 0.5), (64, 8.0), (128, 30.8), (192, 68.5), (255, 120.5)];
+    record_on(folder.path(), "two-alternative", Some(gamma_2));
+    assert!(replay(folder.path()).unwrap().pictures > 20);
+
+    // The same record under another light: its pictures were not those that it says.
+    let header = folder.path().join(HEADER_FILE);
+    let text = fs::read_to_string(&header).unwrap();
+    fs::write(&header, text.replace("30.8", "50.8")).unwrap();
+    let message = replay(folder.path()).unwrap_err();
+    assert!(message.contains("events.jsonl:1: pictures_sha256[0] is "), "{message}");
 }
 
 #[test]

@@ -5,9 +5,12 @@
 
 use std::{fs, path::Path};
 
-use scumble_analysis::{Analysis, Error, Person, RELATION, REPORT, Run, Simulation, Study, fit_study};
+use scumble_analysis::{Analysis, Error, Person, RELATION, REPORT, Run, Simulation, Study, fit_study, trials_csv};
 use scumble_core::{Relation, RelationFile};
-use scumble_psychophysics::{EVENTS_FILE, HEADER_FILE, ObserverModel, Protocol, Reason, WeibullObserver};
+use scumble_psychophysics::{
+    EVENTS_FILE, Event, Experiment, HEADER_FILE, Moment, Observer, ObserverModel, Protocol, Reason, SessionWriter,
+    WeibullObserver, rehearse,
+};
 use scumble_stimuli::Kernel;
 
 fn simulation(observers: u32, seed: u64) -> Simulation {
@@ -268,6 +271,67 @@ fn a_folder_given_twice_counts_once() {
     let folder = sessions();
     let paths = [folder.path().to_path_buf(), folder.path().join("sim-0001")];
     assert_eq!(Study::read(&paths).unwrap().people.len(), 3);
+}
+
+/// Cuts a session of the folder off behind its first `kept` events, and goes on with `act`.
+fn interrupt(folder: &Path, kept: usize, act: impl FnOnce(&mut SessionWriter, &mut Experiment)) {
+    let directory = folder.join("sim-0002");
+    edit(folder, EVENTS_FILE, |text| text.split_inclusive('\n').take(kept).collect());
+    let (mut writer, session) = SessionWriter::reopen(&directory).unwrap();
+    act(&mut writer, &mut session.replay().unwrap());
+}
+
+fn moment() -> Moment {
+    Moment { at: jiff::Timestamp::UNIX_EPOCH, notes: Vec::new(), interrupted_secs: None }
+}
+
+#[test]
+fn answers_of_a_repeated_round_count_nowhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let with_lines = changed("yes-no", 3, |_| ());
+    with_lines.write(folder.path(), || ()).unwrap();
+    let mut progress = None;
+    interrupt(folder.path(), 40, |writer, experiment| {
+        experiment.repeat_round().unwrap();
+        writer.append(&Event::RepeatRound(moment())).unwrap();
+        let person = Observer::new(ObserverModel::default(), 99).unwrap();
+        rehearse(experiment, &person).unwrap().iter().for_each(|event| writer.append(event).unwrap());
+        writer.append(&Event::End(moment())).unwrap();
+        progress = Some(experiment.progress());
+    });
+    let (study, progress) = (read(folder.path()).unwrap(), progress.unwrap());
+    assert!(study.notices.is_empty());
+    let person = &study.people[1];
+    let measured: usize = person.tracks.iter().map(|track| track.responses().count()).sum();
+    assert_eq!(measured, progress.trials as usize);
+    let checked = person.checks.lines + person.checks.catches;
+    assert_eq!(checked + progress.trials, progress.answered, "no line and no catch trial of the repeated round");
+    let rows = trials_csv(&study).unwrap().lines().filter(|row| row.starts_with("sim-0002,")).count();
+    assert_eq!(rows, progress.answered as usize);
+}
+
+#[test]
+fn a_discarded_session_is_left_out_and_one_that_was_ended_early_is_told() {
+    let folder = sessions();
+    interrupt(folder.path(), 60, |writer, experiment| {
+        experiment.stop().unwrap();
+        writer.append(&Event::Stop(moment())).unwrap();
+    });
+    let study = read(folder.path()).unwrap();
+    assert_eq!(study.people.len(), 3);
+    let [notice] = &study.notices[..] else { panic!("{:?}", study.notices) };
+    assert!(notice.contains("sim-0002: the session was ended early: round 1 of 4, 52 trials"), "{notice}");
+
+    let discard = |writer: &mut SessionWriter, _: &mut Experiment| {
+        writer.append(&Event::Discard(moment())).unwrap();
+    };
+    interrupt(folder.path(), 30, discard);
+    let study = read(folder.path()).unwrap();
+    assert_eq!((study.people.len(), study.sessions.len()), (2, 2));
+    let [notice] = &study.notices[..] else { panic!("{:?}", study.notices) };
+    assert!(notice.ends_with("sim-0002: the administrator discarded the session; it is left out"), "{notice}");
+    let message = read(&folder.path().join("sim-0002")).unwrap_err().to_string();
+    assert!(message.contains("the administrator discarded the session"), "{message}");
 }
 
 #[test]

@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, require};
-use crate::event::{Answered, Event, RESPONSE_TIME_ALLOWED, Reply, is_response_time};
+use crate::event::{Answered, Event, RESPONSE_TIME_ALLOWED, Reply, Timing, is_response_time};
 use crate::picture::{Request, draw_trial};
 use crate::protocol::Protocol;
 use crate::timetable::Timetable;
@@ -102,6 +102,9 @@ pub struct Experiment {
     answered_of_round: u32,
     /// Trials answered since the last rest.
     since_rest: u32,
+    /// The latest known onset of pictures, and the answer to them, since the session began.
+    onset_secs: f64,
+    answered_secs: f64,
 }
 
 impl Experiment {
@@ -121,6 +124,8 @@ impl Experiment {
             replaced: 0,
             answered_of_round: 0,
             since_rest: 0,
+            onset_secs: 0.0,
+            answered_secs: 0.0,
         })
     }
 
@@ -145,7 +150,7 @@ impl Experiment {
     /// Takes an answer, and gives the event that must be on disk before the next stage is shown.
     ///
     /// Errors, which leave the session as it was: a stage without a trial, an answer that the question
-    /// does not allow, and a response time that is negative or not finite.
+    /// does not allow, a response time that is negative or not finite, and an onset before the previous one.
     pub fn answer(&mut self, reply: Reply) -> Result<Event, Error> {
         let Some(trial) = self.stage.trial().copied() else {
             return Err(self.refuse("answer", "practice and trial"));
@@ -156,8 +161,10 @@ impl Experiment {
         let allowed = "left and right for two pictures, yes and no for one";
         require(of_question, "answer", answer.name(), allowed)?;
         let correct = trial.is_correct(answer);
-        if let Some(timing) = timing {
-            timing.check()?;
+        if let Some(Timing { onset_secs, .. }) = timing {
+            let is_later = onset_secs.is_finite() && onset_secs >= self.onset_secs;
+            let allowed = "a finite number of seconds, not before the previous onset";
+            require(is_later, "timing.onset_secs", onset_secs, allowed)?;
         }
         let answered = Answered { trial, answer, correct, response_time_secs, pictures_sha256, timing };
         if trial.role == Role::Practice {
@@ -169,6 +176,9 @@ impl Experiment {
             self.answered_of_round += 1;
             self.since_rest += 1;
             self.stage = self.after_answer();
+        }
+        if let Some(Timing { onset_secs, .. }) = timing {
+            (self.onset_secs, self.answered_secs) = (onset_secs, onset_secs + response_time_secs);
         }
         Ok(Event::of(answered))
     }
@@ -198,7 +208,7 @@ impl Experiment {
         }
         self.timetable.restart_round(&self.protocol)?;
         self.replaced += self.answered_of_round;
-        self.answered_of_round = 0;
+        (self.answered_of_round, self.since_rest) = (0, 0);
         self.stage = self.rest();
         Ok(())
     }
@@ -237,6 +247,11 @@ impl Experiment {
     /// Every QUEST, in the order of the session's rounds.
     pub fn tracks(&self) -> &[Track] {
         self.timetable.tracks()
+    }
+
+    /// Seconds from the session's start to the latest answer whose time is known; 0 before it.
+    pub(crate) fn answered_secs(&self) -> f64 {
+        self.answered_secs
     }
 
     /// The parameters.

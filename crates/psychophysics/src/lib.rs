@@ -13,6 +13,7 @@
 //! | [`Protocol`] | every parameter of a session, with units; three come with the crate |
 //! | [`Experiment`] | the state machine: what to show, what an answer leads to |
 //! | [`SessionWriter`], [`read_session`] | the record: one line an event, on disk before the next picture |
+//! | [`standing`] | the answers that count, as a round may be repeated |
 //! | [`Observer`], [`Cohort`] | simulated people, of three kinds, to rehearse with |
 //! | [`YesNoReport`] | hits, false alarms, d' and criterion of single pictures |
 //!
@@ -66,11 +67,13 @@ mod quest_config;
 mod quest_plus;
 mod read;
 mod record;
+mod recover;
 mod rehearse;
 mod replay;
 mod signal_detection_observer;
 mod staircase;
 mod staircase_config;
+mod standing;
 mod summary;
 mod text;
 mod thresholds;
@@ -102,12 +105,13 @@ pub use psychometric::Psychometric;
 pub use quest::Quest;
 pub use quest_config::{PlacementRule, QuestConfig};
 pub use quest_plus::{QuestPlus, QuestPlusConfig};
-pub use read::{Session, read_session, standing};
+pub use read::{Session, read_session};
 pub use record::{EVENTS_FILE, HEADER_FILE, SessionWriter};
 pub use rehearse::rehearse;
 pub use signal_detection_observer::{EXPONENT_OF_SLOPE_3_5, SignalDetectionObserver};
 pub use staircase::Staircase;
 pub use staircase_config::{StaircaseConfig, StaircaseMethod};
+pub use standing::standing;
 pub use summary::QuestSummary;
 pub use thresholds::{THRESHOLD_PROBABILITY, Thresholds};
 pub use track::{Estimate, Track};

@@ -95,11 +95,6 @@ impl Session {
         matches!(self.events.last(), Some(Event::Discard(_)))
     }
 
-    /// The answers that stand, in order: those of practice, and those whose round was not repeated after them.
-    pub fn standing(&self) -> Vec<&Answered> {
-        standing(&self.events)
-    }
-
     /// The latest moment that the record tells.
     pub fn last_known_at(&self) -> Timestamp {
         let started_at = self.header.started_at;
@@ -117,20 +112,6 @@ impl Session {
     pub(crate) fn whole_lines_bytes(&self) -> u64 {
         self.whole_lines_bytes
     }
-}
-
-/// The answers of a record that stand, in order: those of practice, and those whose round was not repeated
-/// after them.
-pub fn standing(events: &[Event]) -> Vec<&Answered> {
-    let mut standing: Vec<&Answered> = Vec::new();
-    for event in events {
-        if let Event::RepeatRound(_) = event {
-            let round = standing.iter().map(|answered| answered.trial.round).max();
-            standing.retain(|answered| answered.trial.round == 0 || Some(answered.trial.round) != round);
-        }
-        standing.extend(event.answered());
-    }
-    standing
 }
 
 /// Reads lines in order and remembers what the next trial's number must be.

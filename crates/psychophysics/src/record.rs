@@ -56,67 +56,61 @@ impl SessionWriter {
     /// last line that was cut off is removed from the file, so that nothing is ever glued to it;
     /// the notice quotes it.
     pub fn reopen(directory: &Path) -> Result<(Self, Session), Error> {
+        Self::reopen_beginning(directory, &read(&directory.join(HEADER_FILE))?, |_| Ok(()))
+    }
+
+    /// Reopens the events under a header's bytes, if `check` takes the session; it runs before the file is changed.
+    pub(crate) fn reopen_beginning(
+        directory: &Path,
+        header: &[u8],
+        check: impl FnOnce(&Session) -> Result<(), Error>,
+    ) -> Result<(Self, Session), Error> {
         let path = directory.join(EVENTS_FILE);
         let file = OpenOptions::new().read(true).write(true).open(&path).map_err(Error::io(&path))?;
         let mut writer = Self::lock(directory, path, file)?;
         // Read through the locked handle: on some systems the lock keeps every other one out.
         let mut bytes = Vec::new();
         writer.file.read_to_end(&mut bytes).map_err(Error::io(&writer.path))?;
-        let session = Session::parse(directory, &read(&directory.join(HEADER_FILE))?, &bytes)?;
+        let session = Session::parse(directory, header, &bytes)?;
         session.replay()?;
+        check(&session)?;
         writer.length_bytes = session.whole_lines_bytes();
         writer.drop_tail().map_err(Error::io(&writer.path))?;
         Ok((writer, session))
     }
 
-    /// Makes the disk hold the whole of a session again after [`SessionWriter::append`] or
-    /// [`SessionWriter::create`] has failed, and goes on with it.
+    /// Writes one event and waits until the disk has it under the session's name.
     ///
-    /// Where the session's files are, they must be its beginning: a tail that was cut off is dropped, and what is
-    /// missing is written behind it. Where they are gone, or not whole enough to hold an event, they are made anew.
-    ///
-    /// Errors: files that are not this session's beginning, which stay as they are; the system's.
-    pub fn recover(directory: &Path, header: &SessionHeader, events: &[Event]) -> Result<Self, Error> {
-        let (header_path, path) = (directory.join(HEADER_FILE), directory.join(EVENTS_FILE));
-        if is_empty_or_gone(&path) && holds_part_of(&header_path, &json_of(&header_path, header)?)? {
-            for path in [&path, &header_path].into_iter().filter(|path| path.exists()) {
-                std::fs::remove_file(path).map_err(Error::io(path))?;
-            }
-            let mut writer = Self::create(directory, header)?;
-            events.iter().try_for_each(|event| writer.append(event))?;
-            return Ok(writer);
-        }
-        let (mut writer, found) = Self::reopen(directory)?;
-        let is_beginning = found.header == *header && events.starts_with(&found.events);
-        if !is_beginning {
-            return Err(Error::SessionExists(directory.into()));
-        }
-        events[found.events.len()..].iter().try_for_each(|event| writer.append(event))?;
-        Ok(writer)
-    }
-
-    /// Writes one event and waits until the disk has it under the session's name. After an error the event is not
-    /// in the record, as far as the system allows.
+    /// After an error the event is not in the record, as far as the system allows, and the writer is of no more
+    /// use: [`SessionWriter::recover`] goes on with the session. Errors: the system's, and a file under the
+    /// session's name that is not the one that was written, as its folder was moved or replaced.
     pub fn append(&mut self, event: &Event) -> Result<(), Error> {
         let mut line = serde_json::to_vec(event).map_err(|error| Error::io(&self.path)(error.into()))?;
         line.push(b'\n');
         let length_bytes = self.length_bytes + line.len() as u64;
-        let written = self.file.write_all(&line).and_then(|()| self.file.sync_data());
+        // A file that somebody has cut off would get a hole, so nothing is written to it.
+        self.find_under_its_name(self.length_bytes)?;
+        let written = self.file.write_all(&line).and_then(|()| self.file.sync_data()).map_err(Error::io(&self.path));
         if let Err(error) = written.and_then(|()| self.find_under_its_name(length_bytes)) {
             // The write's own error is the one to report; a tail that stays is dropped by a reader.
             let _ = self.drop_tail();
-            return Err(Error::io(&self.path)(error));
+            return Err(error);
         }
         self.length_bytes = length_bytes;
         Ok(())
     }
 
-    /// A file that is written goes on to exist when its name is gone or another file's; then nobody finds it.
-    fn find_under_its_name(&self, length_bytes: u64) -> std::io::Result<()> {
-        match std::fs::metadata(&self.path)?.len() == length_bytes {
-            true => Ok(()),
-            false => Err(std::io::Error::other("another file has taken the place of the session's")),
+    /// Refuses a length of the file under the session's name that is not that of what was written: a file that
+    /// is written goes on to exist when its name is gone or another file's, and then nobody finds it.
+    fn find_under_its_name(&self, length_bytes: u64) -> Result<(), Error> {
+        let found_bytes = std::fs::metadata(&self.path).map_err(Error::io(&self.path))?.len();
+        if found_bytes == length_bytes {
+            return Ok(());
         }
+        let reason = format!(
+            "the file has {found_bytes} bytes, allowed is {length_bytes}: it was changed or replaced during the session"
+        );
+        Err(Error::io(&self.path)(std::io::Error::other(reason)))
     }
 
     fn lock(directory: &Path, path: PathBuf, file: File) -> Result<Self, Error> {
@@ -136,23 +130,10 @@ impl SessionWriter {
 }
 
 /// The bytes of the header's file.
-fn json_of(path: &Path, header: &SessionHeader) -> Result<Vec<u8>, Error> {
+pub(crate) fn json_of(path: &Path, header: &SessionHeader) -> Result<Vec<u8>, Error> {
     let mut json = serde_json::to_vec_pretty(header).map_err(|error| Error::io(path)(error.into()))?;
     json.push(b'\n');
     Ok(json)
-}
-
-fn is_empty_or_gone(path: &Path) -> bool {
-    std::fs::metadata(path).map_or_else(|error| error.kind() == ErrorKind::NotFound, |file| file.len() == 0)
-}
-
-/// Whether a file is gone, or was cut off while these bytes were written to it.
-fn holds_part_of(path: &Path, bytes: &[u8]) -> Result<bool, Error> {
-    match std::fs::read(path) {
-        Ok(found) => Ok(bytes.starts_with(&found)),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(true),
-        Err(error) => Err(Error::io(path)(error)),
-    }
 }
 
 fn create_new(directory: &Path, path: &Path) -> Result<File, Error> {
@@ -163,7 +144,7 @@ fn create_new(directory: &Path, path: &Path) -> Result<File, Error> {
 }
 
 /// Makes the names of new files durable, where directories can be synchronised.
-fn sync_directory(directory: &Path) -> Result<(), Error> {
+pub(crate) fn sync_directory(directory: &Path) -> Result<(), Error> {
     if cfg!(unix) {
         File::open(directory).and_then(|directory| directory.sync_all()).map_err(Error::io(directory))?;
     }

@@ -1,4 +1,4 @@
-//! A simulated person goes through what is left of a session.
+//! A simulated person goes through what is left of a session, without rests between the trials.
 
 use crate::error::Error;
 use crate::event::{Event, Reply, Timing};
@@ -12,13 +12,11 @@ const FIXATION_SECS: f64 = 0.5;
 pub fn rehearse(experiment: &mut Experiment, observer: &Observer) -> Result<Vec<Event>, Error> {
     let rules = experiment.protocol().pictures;
     let mut events = Vec::new();
-    let mut now_secs = 0.0;
     while *experiment.stage() != Stage::Finished {
         match experiment.stage().trial().copied() {
             Some(trial) => {
                 let response_time_secs = observer.response_time_secs(&trial);
-                let onset_secs = now_secs + FIXATION_SECS;
-                now_secs = onset_secs + response_time_secs;
+                let onset_secs = experiment.answered_secs() + FIXATION_SECS;
                 let reply = Reply {
                     answer: observer.answer(&trial, &rules)?,
                     response_time_secs,

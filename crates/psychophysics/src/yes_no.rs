@@ -20,6 +20,7 @@
 
 use crate::event::{Answered, Event};
 use crate::normal;
+use crate::standing::standing;
 use crate::trial::{Answer, Pictures, Role};
 
 /// Half width of a 95 % interval in standard errors: Phi^-1(0.975).
@@ -129,11 +130,11 @@ impl YesNoStatistics {
 }
 
 impl YesNoReport {
-    /// Counts a session's events, such as [`Session::events`](crate::Session). Answers to pairs count
-    /// among the catch trials only.
-    pub fn of<'a>(events: impl IntoIterator<Item = &'a Event>) -> Self {
+    /// Counts the answers of a session's events that stand ([`standing`]). Answers to pairs count among the
+    /// catch trials only.
+    pub fn of(events: &[Event]) -> Self {
         let mut report = Self::default();
-        for answered in events.into_iter().filter_map(Event::answered) {
+        for answered in standing(events) {
             match (answered.trial.role, answered.trial.pictures) {
                 (Role::Catch, _) => {
                     report.catch_shown += 1;

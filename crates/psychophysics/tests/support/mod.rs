@@ -6,8 +6,9 @@
 use std::path::Path;
 
 use scumble_psychophysics::{
-    Answer, Answered, EVENTS_FILE, Event, Experiment, HEADER_FILE, Moment, Observer, ObserverModel, Protocol, Reply,
-    SessionHeader, SessionWriter, Software, Stage, rehearse,
+    Answer, Answered, Consent, Demographics, Display, EVENTS_FILE, Event, Experience, Experiment, Gender, HEADER_FILE,
+    Handedness, Language, Moment, Observer, ObserverModel, Protocol, Reply, SessionHeader, SessionWriter, Software,
+    Stage, Vision, rehearse,
 };
 
 /// The protocols that come with the crate.
@@ -87,6 +88,40 @@ pub fn header(protocol: Protocol) -> SessionHeader {
     let started_at = "2026-03-01T09:30:00Z".parse().unwrap();
     let software = Software::of("scumble-psychophysics tests", "0");
     SessionHeader::new("P07", protocol, SEED, started_at, software)
+}
+
+/// A header with everything that may be known.
+pub fn full_header(protocol: Protocol) -> SessionHeader {
+    SessionHeader {
+        language: Some(Language::German),
+        consent: Some(Consent {
+            text_sha256: "c0ffee00".repeat(8),
+            agreed_at: "2026-03-01T09:25:00Z".parse().unwrap(),
+        }),
+        demographics: Some(Demographics {
+            age_years: Some(34),
+            gender: Some(Gender::Female),
+            handedness: Some(Handedness::Left),
+            vision: Some(Vision::Corrected),
+            graphics_experience: Some(Experience::Expert),
+        }),
+        room: Some("curtains drawn, ceiling lamp on".into()),
+        display: Some(Display {
+            monitor: Some("DP-1".into()),
+            width_px: 1920,
+            height_px: 1200,
+            scale_factor: 1.25,
+            refresh_hz: Some(59.95),
+            window_px: Some([1920, 1200]),
+            px_per_degree: Some(38.0),
+            px_per_mm: Some(3.7),
+            viewing_distance_mm: Some(588.0),
+            // A display of gamma 2 whose black is half a candela per square metre.
+            luminance_table: Some(vec![(0, 0.5), (64, 8.0), (128, 30.8), (192, 68.5), (255, 120.5)]),
+            gamma_check_level: Some(180),
+        }),
+        ..header(protocol)
+    }
 }
 
 /// A whole session on disk, its end included, and the machine that ran it.
