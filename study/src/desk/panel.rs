@@ -3,7 +3,7 @@
 use eframe::egui;
 use egui::{Button, Frame, Layout, Margin, Panel, Rect, RichText, ScrollArea, Ui, Vec2};
 
-use scumble_psychophysics::{Answer, Reason};
+use scumble_psychophysics::{Reason, Task};
 
 use super::look::{Look, dress};
 use super::orders::{self, Ask};
@@ -54,7 +54,7 @@ pub(crate) fn show(ui: &mut Ui, status: &Status, desk: &mut DeskState, words: &D
     let shown = desk.chosen_round.unwrap_or(status.progress.round);
     if let Some(round) = status.rounds.iter().find(|round| round.number == shown) {
         let rect = ui.available_rect_before_wrap().shrink2(Vec2::new(18.0, 0.0) * look.scale);
-        ui.scope_builder(egui::UiBuilder::new().max_rect(rect), |ui| charts(ui, round, look, words));
+        ui.scope_builder(egui::UiBuilder::new().max_rect(rect), |ui| charts(ui, status.task, round, look, words));
     }
     look.ring(ui);
     order
@@ -75,7 +75,7 @@ fn header(ui: &mut Ui, status: &Status, desk: &mut DeskState, look: Look, words:
             if ui.button(other).clicked() {
                 desk.is_dark = !desk.is_dark;
             }
-            ui.label((words.elapsed)(status.elapsed_secs));
+            ui.label((words.elapsed)(status.elapsed_minutes));
             if status.disk == Disk::Saved && status.has_begun {
                 ui.label(RichText::new(words.saved).color(look.palette.faint_ink));
             }
@@ -156,7 +156,7 @@ fn facts(ui: &mut Ui, status: &Status, look: Look, words: &DeskWords) {
 }
 
 /// The charts of a round, side by side as far as there is width.
-fn charts(ui: &mut Ui, round: &Round, look: Look, words: &DeskWords) {
+fn charts(ui: &mut Ui, task: Task, round: &Round, look: Look, words: &DeskWords) {
     let gap = 16.0 * look.scale;
     let count = round.charts.len();
     let fitting = ((ui.available_width() + gap) / (CHART_WIDTH * look.scale + gap)).floor() as usize;
@@ -177,12 +177,10 @@ fn charts(ui: &mut Ui, round: &Round, look: Look, words: &DeskWords) {
                 }
             });
         }
-        let has_pairs = round
-            .charts
-            .iter()
-            .flat_map(|chart| &chart.points)
-            .all(|point| matches!(point.answer, Answer::Left | Answer::Right));
-        let legend = if has_pairs { words.legend_two } else { words.legend_one };
+        let legend = match task {
+            Task::TwoAlternative => words.legend_two,
+            Task::YesNo => words.legend_one,
+        };
         ui.label(RichText::new(legend).small().color(look.palette.faint_ink));
     });
 }

@@ -75,13 +75,17 @@ fn a_disk_that_refuses_answers_is_said_at_the_top() {
 }
 
 #[test]
-#[ignore = "writes a large picture to look at: target/desk_4k.png"]
-fn at_3840_by_2160() {
-    for (name, pixels_per_point) in [("desk_4k_scale_2", 2.0), ("desk_4k_scale_1", 1.0)] {
-        let size = Vec2::new(3840.0, 2160.0) / pixels_per_point;
+#[ignore = "writes large pictures to look at into the temporary folder"]
+fn at_3840_by_2160_and_in_a_narrow_window() {
+    let large = Vec2::new(3840.0, 2160.0);
+    let narrow = Vec2::new(640.0, 1100.0);
+    for (name, size_px, pixels_per_point) in
+        [("desk_4k_scale_2", large, 2.0), ("desk_4k_scale_1", large, 1.0), ("desk_narrow", narrow, 1.0)]
+    {
+        let size = size_px / pixels_per_point;
         let status = mid_round("two-alternative").status();
         let mut harness = harness(status, DeskState::default(), Language::English, size, pixels_per_point);
         harness.run_steps(3);
-        harness.render().unwrap().save(format!("../target/{name}.png")).unwrap();
+        harness.render().unwrap().save(std::env::temp_dir().join(format!("{name}.png"))).unwrap();
     }
 }

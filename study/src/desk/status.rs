@@ -1,7 +1,7 @@
 //! Everything that the administrator sees, as a snapshot.
 
 use scumble_psychophysics::{
-    Answered, Condition, Error, Event, Experiment, Progress, Role, SessionHeader, Stage, standing,
+    Answered, Condition, Error, Event, Experiment, Progress, Role, SessionHeader, Stage, Task, standing,
 };
 
 use super::{Bands, Chart, MinutesLeft};
@@ -25,7 +25,10 @@ pub(crate) struct Given<'a> {
 pub(crate) struct Status {
     pub(crate) participant: String,
     pub(crate) protocol: String,
-    pub(crate) elapsed_secs: f64,
+    pub(crate) task: Task,
+    /// Whole minutes since the session began: a status differs from the one before it when there is something new to
+    /// show, and not because time goes by.
+    pub(crate) elapsed_minutes: u32,
     pub(crate) stage: Stage,
     pub(crate) has_begun: bool,
     pub(crate) is_paused: bool,
@@ -130,7 +133,8 @@ impl Status {
         Ok(Self {
             participant: header.participant.clone(),
             protocol: protocol.name.clone(),
-            elapsed_secs,
+            task: protocol.task,
+            elapsed_minutes: (elapsed_secs / 60.0) as u32,
             stage,
             has_begun,
             is_paused,

@@ -147,3 +147,12 @@ fn what_can_be_ordered_follows_the_experiment() {
     over.events.push(Event::Stop(over.moment("")));
     assert_eq!(over.status().activity(), Activity::EndedEarly);
 }
+
+#[test]
+fn time_that_goes_by_makes_no_new_status_and_an_answer_does() {
+    let mut session = Rehearsed::new("two-alternative").at_trial(9);
+    let status = session.status();
+    session.now_secs += 0.5;
+    assert_eq!(session.status(), status);
+    assert_ne!(session.at_trial(10).status(), status);
+}

@@ -108,3 +108,51 @@ fn id() -> ViewportId {
 fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::rc::Rc;
+
+    use eframe::egui::{self, Key, Vec2};
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable as _;
+    use scumble_psychophysics::Language;
+
+    use super::super::testing::Rehearsed;
+    use super::*;
+    use crate::words::words;
+
+    /// The participant's window with the administrator's inside, as egui does it where there is one window alone.
+    fn harness(window: &Rc<DeskWindow>) -> Harness<'static> {
+        let window = Rc::clone(window);
+        let size = Vec2::new(1400.0, 900.0);
+        Harness::builder().with_size(size).build_ui(move |ui: &mut egui::Ui| window.show(ui.ctx()))
+    }
+
+    #[test]
+    fn the_window_shows_what_is_published_and_keeps_orders_until_they_are_taken() {
+        let window = Rc::new(DeskWindow::new(&words(Language::English).desk, None));
+        let mut harness = harness(&window);
+        harness.run_steps(2);
+        assert!(harness.query_by_label("p07").is_none(), "before anything is published");
+        window.publish(&harness.ctx, Rehearsed::new("two-alternative").at_trial(9).status());
+        harness.run_steps(3);
+        assert!(harness.query_by_label("p07").is_some());
+        harness.key_press(Key::F5);
+        harness.run_steps(2);
+        assert_eq!(window.take_orders(), [Order::Pause]);
+        assert_eq!(window.take_orders(), []);
+    }
+
+    #[test]
+    fn a_closed_window_is_gone_until_it_is_opened_again() {
+        let window = Rc::new(DeskWindow::new(&words(Language::English).desk, None));
+        let mut harness = harness(&window);
+        window.publish(&harness.ctx, Rehearsed::new("two-alternative").at_trial(9).status());
+        for is_open in [true, false, true] {
+            harness.run_steps(3);
+            assert_eq!(harness.query_by_label("p07").is_some(), is_open);
+            window.toggle(&harness.ctx);
+        }
+    }
+}

@@ -18,8 +18,8 @@ pub(crate) struct DeskWords {
 
     // Header.
     pub(crate) activity: fn(Activity) -> String,
-    /// Seconds since the session began.
-    pub(crate) elapsed: fn(f64) -> String,
+    /// Whole minutes since the session began.
+    pub(crate) elapsed: fn(u32) -> String,
     pub(crate) saved: &'static str,
     pub(crate) waiting: fn(&str) -> String,
     pub(crate) dark: &'static str,

@@ -18,7 +18,7 @@ pub(in crate::words) const ENGLISH: DeskWords = DeskWords {
         Activity::Complete => "Complete".to_owned(),
         Activity::EndedEarly => "Ended early".to_owned(),
     },
-    elapsed: |secs| format!("minute {:.0}", (secs / 60.0).floor()),
+    elapsed: |minutes| format!("minute {minutes}"),
     saved: "All answers are on disk",
     waiting: |problem| format!("Not saved, the session waits: {problem}"),
     dark: "Dark",

@@ -18,7 +18,7 @@ pub(in crate::words) const GERMAN: DeskWords = DeskWords {
         Activity::Complete => "Vollständig".to_owned(),
         Activity::EndedEarly => "Vorzeitig beendet".to_owned(),
     },
-    elapsed: |secs| format!("Minute {:.0}", (secs / 60.0).floor()),
+    elapsed: |minutes| format!("Minute {minutes}"),
     saved: "Alle Antworten sind gespeichert",
     waiting: |problem| format!("Nicht gespeichert, die Sitzung wartet: {problem}"),
     dark: "Dunkel",
