@@ -1,7 +1,7 @@
 //! The orders and the notes, at the foot of the panel. Every order has a key; what cannot be ordered says why.
 
 use eframe::egui;
-use egui::{Button, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui, Vec2};
+use egui::{Align, Button, Key, Layout, Modifiers, RichText, ScrollArea, TextEdit, Ui, Vec2};
 
 use super::look::Look;
 use super::{DeskState, Order, Status};
@@ -72,7 +72,8 @@ fn buttons(ui: &mut Ui, status: &Status, desk: &mut DeskState, look: Look, words
                 given = Some(order);
             }
             let why = barrier.map_or("", words.barrier);
-            ui.label(RichText::new(why).small().color(look.palette.faint_ink));
+            let why = RichText::new(why).small().color(look.palette.faint_ink);
+            ui.with_layout(Layout::top_down(Align::Min), |ui| ui.label(why));
         }
     });
     match given? {
