@@ -55,7 +55,11 @@ impl Administrator {
                 window.take_orders()
             }
             Place::Page { is_open, .. } => {
-                *is_open ^= is_asked_for;
+                if is_asked_for {
+                    *is_open = !*is_open;
+                    // The panel finds its place in its first frame and takes it in the second.
+                    context.request_repaint();
+                }
                 Vec::new()
             }
             Place::Unknown => Vec::new(),
