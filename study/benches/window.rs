@@ -17,6 +17,7 @@ use scumble_psychophysics::{Answered, Event, Protocol, Session, read_session};
 mod pixels;
 #[path = "../tests/window/programs.rs"]
 #[allow(dead_code, reason = "the tests use all of it")]
+#[allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 mod programs;
 #[path = "../tests/window/screen.rs"]
 #[allow(dead_code, reason = "the tests use all of it")]

@@ -25,7 +25,7 @@ enum Place {
     Window(DeskWindow),
     /// Over the participant's screen.
     Page {
-        status: Option<Status>,
+        status: Option<Box<Status>>,
         state: DeskState,
         is_open: bool,
     },
@@ -113,7 +113,7 @@ impl Administrator {
         let status = Status::of(given, &mut self.bands)?;
         match &mut self.place {
             Place::Window(window) => window.publish(context, status),
-            Place::Page { status: shown, .. } => *shown = Some(status),
+            Place::Page { status: shown, .. } => *shown = Some(Box::new(status)),
             Place::Unknown => {}
         }
         Ok(())
