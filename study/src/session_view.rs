@@ -219,9 +219,14 @@ impl SessionView {
             self.administrator.note_news();
             ui.request_repaint();
         }
+        let is_ordered = !orders.is_empty();
         for order in orders {
             self.obey(order);
             ui.request_repaint();
+        }
+        // Whoever ordered something in the other window has the keyboard there; the participant needs it to answer.
+        if is_ordered && !self.sitting.is_paused() {
+            ui.ctx().send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Focus);
         }
         self.administrator.tell(ui.ctx(), &self.sitting)
     }

@@ -17,5 +17,6 @@ mod pixels;
 mod programs;
 mod rehearsals;
 mod screen;
+mod set_up;
 mod sitting;
 mod two_pictures;

@@ -28,6 +28,12 @@ impl Pixels {
             .find(|&[x, y]| sparse(x, y) && (0..levels.len()).all(|index| agrees(x, y, index)))
     }
 
+    /// The number of pixels at which two screenshots differ.
+    pub fn differing(&self, other: &Self) -> usize {
+        let pairs = self.rgb.chunks(3).zip(other.rgb.chunks(3));
+        pairs.filter(|(pixel, other)| pixel != other).count()
+    }
+
     /// With the rectangle at `corner` blackened.
     pub fn without(mut self, corner: [u32; 2], size_px: [u32; 2]) -> Self {
         for row in corner[1]..corner[1] + size_px[1] {

@@ -4,7 +4,7 @@
 //! names, each a monitor of its own to RandR; it needs neither a graphics card nor a console nor a right.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use tempfile::TempDir;
@@ -76,6 +76,17 @@ impl Screen {
             .unwrap();
         assert_eq!(output.stdout.len() as u32, self.size_px[0] * self.size_px[1] * 3, "{output:?}");
         Pixels { size_px: self.size_px, rgb: output.stdout }
+    }
+
+    /// Keeps a picture of the screen for whoever asks why the test failed, and says where.
+    pub fn keep_picture(&self) {
+        let test = std::thread::current().name().unwrap_or("test").replace("::", "-");
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test).with_extension("png");
+        let mut command = program("import", "imagemagick");
+        let kept = command.args(["-silent", "-window", "root"]).arg(&path).env("DISPLAY", &self.display).status();
+        if kept.is_ok_and(|status| status.success()) {
+            eprintln!("the screen when the test failed: {}", path.display());
+        }
     }
 }
 

@@ -66,12 +66,19 @@ impl<'a> Sitting<'a> {
         seed: u64,
         environment: &[(&'a str, &'a str)],
     ) -> Self {
-        Self::start_with(screen, folder, protocol, seed, environment, &[])
+        Self::start_with(screen, folder, protocol, seed, environment, &["--quick-start"])
+    }
+
+    /// Opens the window with the set-up pages before the session, for a person whose home is `folder`.
+    pub fn set_up(screen: &'a Screen, folder: &'a Path, protocol: Protocol, seed: u64) -> Self {
+        // The folders of former studies are remembered below these.
+        let home = ["HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME"].map(|name| (name, folder.to_str().unwrap()));
+        Self::start_with(screen, folder, protocol, seed, &home, &[])
     }
 
     /// Lets a simulated person sit through a session by itself, and gives its record.
     pub fn rehearse(screen: &Screen, folder: &Path, protocol: Protocol, seed: u64, observer: &str) -> Session {
-        let arguments = ["--rehearse", observer, "--speed", "20"];
+        let arguments = ["--quick-start", "--rehearse", observer, "--speed", "20"];
         let mut sitting = Sitting::start_with(screen, folder, protocol, seed, &[], &arguments);
         assert!(sitting.exit_status().success(), "the session is complete");
         sitting.complete_record()
@@ -88,9 +95,7 @@ impl<'a> Sitting<'a> {
         let file = folder.join("protocol.toml");
         std::fs::write(&file, protocol.to_toml().unwrap()).unwrap();
         let data = folder.join("study");
-        let common = ["--data", data.to_str().unwrap(), "--participant", PARTICIPANT, "--quick-start"]
-            .map(String::from)
-            .to_vec();
+        let common = ["--data", data.to_str().unwrap(), "--participant", PARTICIPANT].map(String::from).to_vec();
         let seed_text = seed.to_string();
         let fresh = ["--protocol", file.to_str().unwrap(), "--seed", &seed_text].map(String::from);
         let more: Vec<String> = more.iter().copied().map(String::from).collect();
@@ -184,6 +189,18 @@ impl<'a> Sitting<'a> {
     fn side(&self, left: bool) -> (&'static str, Answer) {
         let answers = self.expected.stage().trial().unwrap().pictures.answers();
         if left { ("key Left", answers[0]) } else { ("key Right", answers[1]) }
+    }
+
+    /// Interrupts the session by a key that hides the pictures of `trial`, and goes on.
+    pub fn hide_and_show(&mut self, trial: &Trial, key: &str) {
+        let left = self.pictures(trial).remove(0);
+        self.screen.input(key);
+        wait_for("no picture", || self.screen.pixels().find(&left).is_none().then_some(()));
+        // An answer to hidden pictures is none.
+        self.screen.input("key Left");
+        self.screen.input(key);
+        self.see(trial);
+        self.moments += 2;
     }
 
     /// Kills the program.
@@ -302,6 +319,14 @@ impl<'a> Sitting<'a> {
             stimulus.render(rules.width_px, rules.height_px, &Transfer::srgb()).unwrap()
         };
         trial.pictures.all().into_iter().map(draw).collect()
+    }
+}
+
+impl Drop for Sitting<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.screen.keep_picture();
+        }
     }
 }
 
