@@ -3,6 +3,7 @@
 use scumble_psychophysics::Event;
 
 use crate::pixels::Pixels;
+use crate::programs::wait_for;
 use crate::screen::Screen;
 use crate::sitting::{Sitting, short};
 
@@ -65,8 +66,10 @@ fn the_participants_keys_answer_after_the_administrator_has_worked_in_the_other_
     let mut index = 0;
     while let Some((trial, _)) = sitting.next() {
         if index == 1 {
-            // The click gives the window the keyboard.
-            screen.input("mousemove 2000 450 click 1");
+            wait_for("the keyboard in the administrator's window", || {
+                screen.input("mousemove 2000 450 click 1");
+                screen.title_with_keyboard().contains("administrator").then_some(())
+            });
             sitting.hide_and_show(&trial, "key F5");
         }
         sitting.answer_left(false);

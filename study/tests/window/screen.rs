@@ -67,6 +67,13 @@ impl Screen {
         assert!(command.status().unwrap().success(), "xdotool {words}");
     }
 
+    /// The title of the window that gets the keys; empty where none does.
+    pub fn title_with_keyboard(&self) -> String {
+        let mut command = program("xdotool", "xdotool");
+        let output = command.args(["getwindowfocus", "getwindowname"]).env("DISPLAY", &self.display).output().unwrap();
+        String::from_utf8_lossy(&output.stdout).trim().to_owned()
+    }
+
     /// What is on the screen.
     pub fn pixels(&self) -> Pixels {
         let output = program("import", "imagemagick")

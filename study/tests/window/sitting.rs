@@ -110,9 +110,9 @@ impl<'a> Sitting<'a> {
     pub fn first_page(&self) -> Pixels {
         wait_for("the first page", || {
             let [pixels, later] = [self.screen.pixels(), self.screen.pixels()];
-            // A display without a window is black.
-            let is_black = later.rgb.iter().all(|level| *level == 0);
-            (!is_black && pixels == later).then_some(later)
+            // A display without a window and a window before its first page have one colour.
+            let written_px = later.rgb.chunks(3).filter(|pixel| **pixel != later.rgb[..3]).count();
+            (written_px > 1_000 && pixels == later).then_some(later)
         })
     }
 
