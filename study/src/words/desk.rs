@@ -69,3 +69,21 @@ pub(crate) struct DeskWords {
     pub(crate) noted: fn(f64, &str) -> String,
     pub(crate) no_notes: &'static str,
 }
+
+/// A value and the limit that it misses, with as many decimals as it takes to tell them apart: "0.30, at most 0.30"
+/// would be no reason.
+fn apart(value: f64, limit: f64, decimals: usize) -> [String; 2] {
+    let written = |decimals: usize| [value, limit].map(|number| format!("{number:.decimals$}"));
+    (decimals..decimals + 6).map(written).find(|[value, limit]| value != limit).unwrap_or_else(|| written(decimals))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_next_to_its_limit_is_told_from_it() {
+        assert_eq!(apart(0.41, 0.3, 2), ["0.41", "0.30"]);
+        assert_eq!(apart(0.3004, 0.3, 2), ["0.3004", "0.3000"]);
+    }
+}

@@ -3,7 +3,7 @@
 use scumble_psychophysics::{Answer, Condition, Reason};
 use scumble_stimuli::{Kernel, Pattern};
 
-use super::DeskWords;
+use super::{DeskWords, apart};
 use crate::desk::{Activity, Barrier, Chart, MinutesLeft, Point, RoundState, Status};
 
 pub(in crate::words) const ENGLISH: DeskWords = DeskWords {
@@ -89,16 +89,19 @@ pub(in crate::words) const ENGLISH: DeskWords = DeskWords {
     },
     reason: |reason| match *reason {
         Reason::Wide { width_log10, limit_log10 } => {
-            format!("90 % interval {width_log10:.2} log units wide, at most {limit_log10:.2}")
+            let [width, limit] = apart(width_log10, limit_log10, 2);
+            format!("90 % interval {width} log units wide, at most {limit}")
         }
         Reason::OneSided { fewest, limit } => {
             format!("rarer of right and wrong answers: {fewest}, at least {limit}")
         }
         Reason::AtEdge { distance_log10, limit_log10 } => {
-            format!("estimate {distance_log10:.2} log units from the edge, at least {limit_log10:.2}")
+            let [distance, limit] = apart(distance_log10, limit_log10, 2);
+            format!("estimate {distance} log units from the edge, at least {limit}")
         }
         Reason::HalvesDiffer { difference_sds, limit_sds } => {
-            format!("first and second half {difference_sds:.1} SD apart, at most {limit_sds:.1}")
+            let [difference, limit] = apart(difference_sds, limit_sds, 1);
+            format!("first and second half {difference} SD apart, at most {limit}")
         }
     },
     legend_two: "Triangles point to the picture that was named the line; filled: right, hollow: wrong. Band: 90 % \

@@ -3,7 +3,7 @@
 use scumble_psychophysics::{Answer, Condition, Reason};
 use scumble_stimuli::{Kernel, Pattern};
 
-use super::DeskWords;
+use super::{DeskWords, apart};
 use crate::desk::{Activity, Barrier, Chart, MinutesLeft, Point, RoundState, Status};
 
 pub(in crate::words) const GERMAN: DeskWords = DeskWords {
@@ -96,24 +96,21 @@ pub(in crate::words) const GERMAN: DeskWords = DeskWords {
         }
     },
     reason: |reason| match *reason {
-        Reason::Wide { width_log10, limit_log10 } => format!(
-            "90-%-Intervall {} log-Einheiten breit, höchstens {}",
-            decimals(width_log10, 2),
-            decimals(limit_log10, 2)
-        ),
+        Reason::Wide { width_log10, limit_log10 } => {
+            let [width, limit] = apart(width_log10, limit_log10, 2).map(|text| text.replace('.', ","));
+            format!("90-%-Intervall {width} log-Einheiten breit, höchstens {limit}")
+        }
         Reason::OneSided { fewest, limit } => {
             format!("seltenere Antwort, richtig oder falsch: {fewest}, mindestens {limit}")
         }
-        Reason::AtEdge { distance_log10, limit_log10 } => format!(
-            "Schätzung {} log-Einheiten vom Rand, mindestens {}",
-            decimals(distance_log10, 2),
-            decimals(limit_log10, 2)
-        ),
-        Reason::HalvesDiffer { difference_sds, limit_sds } => format!(
-            "erste und zweite Hälfte {} SD auseinander, höchstens {}",
-            decimals(difference_sds, 1),
-            decimals(limit_sds, 1)
-        ),
+        Reason::AtEdge { distance_log10, limit_log10 } => {
+            let [distance, limit] = apart(distance_log10, limit_log10, 2).map(|text| text.replace('.', ","));
+            format!("Schätzung {distance} log-Einheiten vom Rand, mindestens {limit}")
+        }
+        Reason::HalvesDiffer { difference_sds, limit_sds } => {
+            let [difference, limit] = apart(difference_sds, limit_sds, 1).map(|text| text.replace('.', ","));
+            format!("erste und zweite Hälfte {difference} SD auseinander, höchstens {limit}")
+        }
     },
     legend_two: "Die Dreiecke zeigen auf das Bild, das als Linie benannt wurde; gefüllt: richtig, hohl: falsch. Band: \
                  90-%-Intervall nach jedem Durchgang. Gestrichelt: Schätzung.",
