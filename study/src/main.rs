@@ -32,6 +32,7 @@ use std::rc::Rc;
 use anyhow::Context;
 use clap::Parser;
 use eframe::egui;
+use scumble_psychophysics::read_session;
 
 use crate::arguments::Arguments;
 use crate::outcome::Outcome;
@@ -84,7 +85,10 @@ fn check_given(arguments: &Arguments) -> anyhow::Result<()> {
 /// The session that the command line asks for, and what is known of its display.
 fn session(arguments: &Arguments) -> anyhow::Result<(Sitting, MeasuredDisplay)> {
     let mut found_now = found(arguments)?;
+    let mut number = arguments.participant_number;
     if let (Found::Interrupted(interrupted), Some(policy)) = (&found_now, arguments.resume) {
+        // A session that takes a discarded one's place is the same person's, with the same order of rounds.
+        number = Some(read_session(&interrupted.directory)?.header.participant_number);
         match program::resume(&interrupted.directory, policy)? {
             Some(sitting) => return Ok((sitting, MeasuredDisplay::default())),
             None => found_now = found(arguments)?,
@@ -96,7 +100,8 @@ fn session(arguments: &Arguments) -> anyhow::Result<(Sitting, MeasuredDisplay)> 
     match found_now {
         Found::Free(directory) => {
             let study = StudyFolder::open(&arguments.study_folder(), arguments.protocol.as_deref())?;
-            let header = arguments.header(&arguments.participant_code(), study.protocol().clone())?;
+            let mut header = arguments.header(&arguments.participant_code(), study.protocol().clone())?;
+            header.participant_number = number.unwrap_or(header.participant_number);
             let measured = MeasuredDisplay::of_study(&study, arguments.px_per_degree)?;
             Ok((Sitting::fresh(study, &directory, header)?, measured))
         }

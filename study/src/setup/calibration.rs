@@ -67,6 +67,12 @@ impl Calibration {
         self.matched = matched;
     }
 
+    /// Takes the outline as large as the card, unless nobody has changed it: a key that leads through the page is
+    /// no measurement.
+    pub(crate) fn confirm(&mut self) {
+        self.matched |= self.card_width_px.is_some();
+    }
+
     /// Physical pixels per millimetre, where the outline was matched.
     pub(crate) fn px_per_mm(&self) -> Option<f64> {
         self.card_width_px.filter(|_| self.matched).map(|width| f64::from(width) / CARD_MM[0])
@@ -105,6 +111,16 @@ pub(crate) fn arcmin(length_px: f64, px_per_degree: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_outline_that_nobody_changed_is_not_confirmed() {
+        let mut calibration = Calibration::default();
+        calibration.confirm();
+        assert_eq!(calibration.px_per_mm(), None);
+        calibration.widen(1, 1.0, 1000);
+        calibration.confirm();
+        assert!(calibration.px_per_mm().is_some());
+    }
 
     fn calibrated(width_px: u32, distance_cm: &str) -> Calibration {
         let mut calibration = Calibration { distance_cm: distance_cm.into(), ..Calibration::default() };

@@ -45,6 +45,11 @@ impl GammaCheck {
         self.matched = false;
     }
 
+    /// Takes the grey as matched, unless nobody has changed it: a key that leads through the page is no measurement.
+    pub(crate) fn confirm(&mut self) {
+        self.matched |= self.level != FIRST_LEVEL;
+    }
+
     /// The level that looked like half of white, where it was matched.
     pub(crate) fn matched_level(&self) -> Option<u8> {
         Some(self.level).filter(|_| self.matched)
@@ -66,6 +71,16 @@ mod tests {
     use scumble_stimuli::Transfer;
 
     use super::*;
+
+    #[test]
+    fn a_grey_that_nobody_changed_is_not_confirmed() {
+        let mut check = GammaCheck::default();
+        check.confirm();
+        assert_eq!(check.matched_level(), None);
+        check.lighten(46);
+        check.confirm();
+        assert_eq!(check.matched_level(), Some(186));
+    }
 
     #[test]
     fn srgb_emits_half_of_its_light_at_level_188() {

@@ -60,7 +60,7 @@ fn fields(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, takes_keyboard: bo
         setup.gamma.lighten(by.clamp(i8::MIN.into(), i8::MAX.into()) as i8);
     }
     if focus::confirmed(ui, &response) {
-        setup.gamma.matched = true;
+        setup.gamma.confirm();
     }
 }
 

@@ -83,7 +83,7 @@ fn card(ui: &mut Ui, setup: &mut Setup, words: &SetupWords, scale_factor: f64, t
         calibration.widen(by_px, scale_factor, most as u32);
     }
     if focus::confirmed(ui, &response) {
-        calibration.set_matched(true, scale_factor);
+        calibration.confirm();
     }
 }
 
