@@ -72,6 +72,7 @@ impl SessionView {
             return Ok(screen::paused(ui, experiment.progress(), words));
         }
         if screen::too_small(ui, experiment.protocol(), words) {
+            self.presentation = None;
             return Ok(None);
         }
         let asked_to_pause = sitting.is_open() && keys::pause(ui.ctx());
@@ -116,6 +117,15 @@ impl SessionView {
             Action::Close => ui.send_viewport_cmd(egui::ViewportCommand::Close),
         }
         Ok(())
+    }
+
+    /// What a key pressed in this frame answers to the pictures on the screen; a key that was pressed before
+    /// they were there is no answer to them.
+    fn answer_by_key(&self, context: &egui::Context) -> Option<Answer> {
+        match self.scene() {
+            Scene::Pictures { trial, .. } => keys::answer(context, trial.pictures.answers()),
+            Scene::Page(_) | Scene::Waiting => None,
+        }
     }
 
     fn answer(&mut self, answer: Answer) -> anyhow::Result<()> {
@@ -214,10 +224,17 @@ impl SessionView {
             }
             self.administrator.tell(ui.ctx(), &self.sitting)?;
             orders.extend(self.administrator.show(ui));
-        } else if let Some(action) = self.show(ui, frame)? {
-            self.act(action, ui, frame)?;
-            self.administrator.note_news();
-            ui.request_repaint();
+        } else {
+            // Before anything is painted, so that the next cross is in this frame and not in the one after it.
+            if let Some(answer) = self.answer_by_key(ui.ctx()) {
+                self.act(Action::Answer(answer), ui, frame)?;
+                self.administrator.note_news();
+            }
+            if let Some(action) = self.show(ui, frame)? {
+                self.act(action, ui, frame)?;
+                self.administrator.note_news();
+                ui.request_repaint();
+            }
         }
         let is_ordered = !orders.is_empty();
         for order in orders {

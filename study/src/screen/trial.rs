@@ -11,7 +11,7 @@ use super::{page, question};
 use crate::presentation::{Presentation, Screen};
 use crate::screen::Action;
 use crate::words::participant::ParticipantWords;
-use crate::{keys, pixels, theme};
+use crate::{pixels, theme};
 
 /// Between two pictures, in physical pixels.
 const GAP_PX: f32 = 32.0;
@@ -23,7 +23,7 @@ const BELOW: f32 = 160.0;
 const MARGIN: f32 = 18.0;
 const BUTTON: Vec2 = Vec2::new(240.0, 56.0);
 
-/// A trial, in practice or not.
+/// A trial, in practice or not, and the answer that was clicked.
 pub(crate) fn trial(
     ui: &mut Ui,
     presentation: &mut Presentation,
@@ -36,10 +36,8 @@ pub(crate) fn trial(
     let pictures = presentation.trial().pictures;
     let places = Places::new(screen, display.size_px, pictures.all().len(), ui.pixels_per_point());
 
-    // A key that was pressed before the pictures were there is not an answer to them.
     let was_shown = presentation.pictures().is_some();
     let answers = pictures.answers();
-    let key = keys::answer(ui.ctx(), answers).filter(|_| was_shown).map(Action::Answer);
     presentation.advance(ui.ctx(), display)?;
 
     let top = Pos2::new(screen.center().x, places.pictures[0].top() - MARGIN * places.scale);
@@ -62,7 +60,7 @@ pub(crate) fn trial(
         }
     }
     progress(ui, screen, experiment, words);
-    Ok(key.or(clicked))
+    Ok(clicked)
 }
 
 /// In place of pictures that would be cut off: whether they would be, and the page that says so.
