@@ -229,6 +229,7 @@ impl SessionView {
             if let Some(answer) = self.answer_by_key(ui.ctx()) {
                 self.act(Action::Answer(answer), ui, frame)?;
                 self.administrator.note_news();
+                ui.request_repaint();
             }
             if let Some(action) = self.show(ui, frame)? {
                 self.act(action, ui, frame)?;
