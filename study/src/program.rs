@@ -158,9 +158,9 @@ impl eframe::App for Program {
         }
     }
 
-    fn raw_input_hook(&mut self, context: &egui::Context, raw_input: &mut egui::RawInput) {
+    fn raw_input_hook(&mut self, _context: &egui::Context, raw_input: &mut egui::RawInput) {
         if let Part::Session(view) = &mut self.part {
-            view.rehearse(context, raw_input);
+            view.rehearse(raw_input);
         }
     }
 

@@ -26,6 +26,9 @@ pub(crate) struct SessionView {
     sitting: Sitting,
     words: &'static Words,
     rehearsal: Option<Rehearsal>,
+    /// When the simulated person looks again; asked for within the frame, because a frame forgets what was asked
+    /// for before it.
+    wake_after: Option<Duration>,
     measured: MeasuredDisplay,
     /// What the pictures are shown on, once there is one to show.
     screen: Option<Screen>,
@@ -45,6 +48,7 @@ impl SessionView {
             sitting,
             words: words(language),
             rehearsal,
+            wake_after: None,
             measured,
             screen: None,
             presentation: None,
@@ -158,15 +162,15 @@ impl SessionView {
     }
 
     /// Lets the simulated person press a key.
-    pub(crate) fn rehearse(&mut self, context: &egui::Context, raw_input: &mut egui::RawInput) {
+    pub(crate) fn rehearse(&mut self, raw_input: &mut egui::RawInput) {
         if raw_input.viewport_id == egui::ViewportId::ROOT
-            && let Err(error) = self.press(context, raw_input)
+            && let Err(error) = self.press(raw_input)
         {
             self.stop(&error);
         }
     }
 
-    fn press(&mut self, context: &egui::Context, raw_input: &mut egui::RawInput) -> anyhow::Result<()> {
+    fn press(&mut self, raw_input: &mut egui::RawInput) -> anyhow::Result<()> {
         let Some(mut person) = self.rehearsal.take() else { return Ok(()) };
         let rules = self.sitting.experiment().protocol().pictures;
         let next = person.act(self.scene(), &rules, Instant::now());
@@ -178,7 +182,7 @@ impl SessionView {
                     raw_input.events.push(egui::Event::Key { key, physical_key, pressed, repeat, modifiers });
                 }
             }
-            Move::Wait(wait) => context.request_repaint_after_for(wait, egui::ViewportId::ROOT),
+            Move::Wait(wait) => self.wake_after = Some(wait),
             Move::Nothing => {}
         }
         Ok(())
@@ -208,6 +212,9 @@ impl SessionView {
 
     /// One frame.
     pub(crate) fn ui(&mut self, ui: &mut egui::Ui, frame: &eframe::Frame) {
+        if let Some(wait) = self.wake_after.take() {
+            ui.ctx().request_repaint_after(wait);
+        }
         if let Err(error) = self.turn(ui, frame) {
             self.stop(&error);
             ui.request_repaint();
@@ -229,7 +236,6 @@ impl SessionView {
             if let Some(answer) = self.answer_by_key(ui.ctx()) {
                 self.act(Action::Answer(answer), ui, frame)?;
                 self.administrator.note_news();
-                ui.request_repaint();
             }
             if let Some(action) = self.show(ui, frame)? {
                 self.act(action, ui, frame)?;
