@@ -7,15 +7,15 @@ pub(crate) fn display(frame: &eframe::Frame) -> Option<Display> {
     let window = frame.winit_window()?;
     let size = window.inner_size();
     let (monitors, index) = monitors(frame);
-    let monitor = monitors.into_iter().nth(index)?;
+    let monitor = monitors.into_iter().nth(index?)?;
     Some(Display { scale_factor: window.scale_factor(), window_px: Some([size.width, size.height]), ..monitor })
 }
 
-/// Every monitor in the system's order, and the index of the one under the participant's window.
-pub(crate) fn monitors(frame: &eframe::Frame) -> (Vec<Display>, usize) {
-    let Some(window) = frame.winit_window() else { return (Vec::new(), 0) };
+/// Every monitor in the system's order, and the index of the one under the participant's window, where it is known.
+pub(crate) fn monitors(frame: &eframe::Frame) -> (Vec<Display>, Option<usize>) {
+    let Some(window) = frame.winit_window() else { return (Vec::new(), None) };
     let current = window.current_monitor();
-    let index = window.available_monitors().position(|monitor| Some(monitor) == current).unwrap_or(0);
+    let index = window.available_monitors().position(|monitor| Some(monitor) == current);
     let monitors = window.available_monitors().map(|monitor| Display {
         monitor: monitor.name(),
         width_px: monitor.size().width,

@@ -27,14 +27,20 @@ pub(crate) fn administrator(context: &egui::Context) -> bool {
     pressed(context).contains(&Key::F10)
 }
 
-/// What a key answers: the arrows, F and J by the place of the answer, Y and N by its word.
+/// What a key answers: the arrows by the place of the answer; of two pictures, F and J too; yes and no by their
+/// first letters, of which J is the German one and so can have no place.
 fn answer_of(key: Key, answers: [Answer; 2]) -> Option<Answer> {
-    match key {
-        Key::ArrowLeft | Key::F => Some(answers[0]),
-        Key::ArrowRight | Key::J => Some(answers[1]),
-        Key::Y => answers.into_iter().find(|answer| *answer == Answer::Yes),
-        Key::N => answers.into_iter().find(|answer| *answer == Answer::No),
+    let letter = match (key, answers) {
+        (Key::F, [Answer::Left, _]) => Some(Answer::Left),
+        (Key::J, [_, Answer::Right]) => Some(Answer::Right),
+        (Key::Y | Key::J, [Answer::Yes, _]) => Some(Answer::Yes),
+        (Key::N, [_, Answer::No]) => Some(Answer::No),
         _ => None,
+    };
+    match key {
+        Key::ArrowLeft => Some(answers[0]),
+        Key::ArrowRight => Some(answers[1]),
+        _ => letter,
     }
 }
 
@@ -52,12 +58,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn arrows_f_and_j_name_a_place_and_y_and_n_a_word() {
+    fn arrows_name_a_place_f_and_j_a_picture_and_y_j_and_n_a_word() {
         let given = |answers: [Answer; 2]| {
             [Key::ArrowLeft, Key::F, Key::Y, Key::ArrowRight, Key::J, Key::N, Key::Space].map(|k| answer_of(k, answers))
         };
         let [left, right, yes, no] = [Answer::Left, Answer::Right, Answer::Yes, Answer::No].map(Some);
         assert_eq!(given([Answer::Left, Answer::Right]), [left, left, None, right, right, None, None]);
-        assert_eq!(given([Answer::Yes, Answer::No]), [yes, yes, yes, no, no, no, None]);
+        assert_eq!(given([Answer::Yes, Answer::No]), [yes, None, yes, no, yes, no, None]);
     }
 }

@@ -32,7 +32,7 @@ use std::rc::Rc;
 use anyhow::Context;
 use clap::Parser;
 use eframe::egui;
-use scumble_psychophysics::read_session;
+use scumble_psychophysics::{Protocol, read_session};
 
 use crate::arguments::Arguments;
 use crate::outcome::Outcome;
@@ -74,8 +74,13 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
 
 /// Refuses what the set-up would be given: another study's protocol, a name for a code, a complete session.
 fn check_given(arguments: &Arguments) -> anyhow::Result<()> {
-    let study = StudyFolder::open(&arguments.study_folder(), arguments.protocol.as_deref())?;
-    arguments.header(&arguments.participant_code(), study.protocol().clone())?;
+    let code = arguments.participant_code();
+    let Some(folder) = &arguments.data else {
+        let protocol = arguments.protocol.as_deref().map_or_else(|| Ok(Protocol::two_alternative()), Protocol::open)?;
+        return arguments.header(&code, protocol).map(drop);
+    };
+    let study = StudyFolder::open(folder, arguments.protocol.as_deref())?;
+    arguments.header(&code, study.protocol().clone())?;
     match found(arguments)? {
         Found::Complete(directory) => Err(complete(&directory)),
         Found::Free(_) | Found::Interrupted(_) => Ok(()),

@@ -14,8 +14,9 @@ pub(crate) enum Outcome {
     Interrupted { directory: PathBuf },
     /// The experiment or a picture refused to go on; in words.
     Stopped { problem: String, directory: PathBuf },
-    /// The window was closed while the disk refused events: why, and the lines that are not in the record.
-    Unsaved { problem: String, lines: Vec<String>, directory: PathBuf },
+    /// The window was closed while the disk refused events: why, the lines that are not in the record, and where the
+    /// whole session is.
+    Unsaved { problem: String, lines: Vec<String>, directory: PathBuf, rescued_to: Option<PathBuf> },
 }
 
 impl Outcome {
@@ -26,11 +27,16 @@ impl Outcome {
             Self::NotBegun => anyhow::bail!("no session was begun, and nothing is recorded"),
             Self::Interrupted { directory } => anyhow::bail!("not complete; {}", how_to_resume(&directory)),
             Self::Stopped { problem, directory } => anyhow::bail!("{problem}; {}", how_to_resume(&directory)),
-            Self::Unsaved { problem, lines, directory } => anyhow::bail!(
-                "{problem}; these lines are missing at the end of the record in {}:\n{}",
-                directory.display(),
-                lines.join("\n")
-            ),
+            Self::Unsaved { problem, lines, directory, rescued_to } => {
+                let whole = rescued_to.map_or_else(String::new, |folder| {
+                    format!("the whole session is in {}, to be put in its place; ", folder.display())
+                });
+                let directory = directory.display();
+                let lines = lines.join("\n");
+                anyhow::bail!(
+                    "{problem}; {whole}these lines are missing at the end of the record in {directory}:\n{lines}"
+                )
+            }
         }
     }
 }

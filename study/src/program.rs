@@ -49,6 +49,13 @@ impl Program {
         measured: MeasuredDisplay,
         outcome: Rc<RefCell<Outcome>>,
     ) -> anyhow::Result<Self> {
+        let recorded = sitting.recorder().header().simulated_observer;
+        anyhow::ensure!(
+            arguments.rehearse == recorded,
+            "{}: its answers are {}; allowed are answers of one person alone, with or without --rehearse",
+            sitting.recorder().directory().display(),
+            recorded.map_or_else(|| "a person's".to_owned(), |model| format!("those of --rehearse {}", model.name()))
+        );
         let rehearsal = match arguments.rehearse {
             Some(model) => Some(Observer::new(model, sitting.recorder().header().seed)?),
             None => None,
@@ -62,7 +69,7 @@ impl Program {
     fn open_setup(&self, frame: &eframe::Frame) -> Setup {
         let arguments = &self.arguments;
         // A window is put on another monitor by hand.
-        let (monitors, monitor) = if arguments.windowed { (Vec::new(), 0) } else { monitors(frame) };
+        let (monitors, monitor) = if arguments.windowed { (Vec::new(), None) } else { monitors(frame) };
         Setup::new(Given {
             folder: arguments.data.as_ref().map_or_else(String::new, |folder| folder.display().to_string()),
             protocol: arguments.protocol.clone(),
@@ -70,7 +77,7 @@ impl Program {
             participant_number: arguments.participant_number,
             language: arguments.language,
             monitors,
-            monitor,
+            monitor: monitor.unwrap_or(0),
             px_per_degree: arguments.px_per_degree,
             recent: RecentFolders::of_user(),
             find: Box::new(find),

@@ -92,6 +92,15 @@ impl Recorder {
         }
     }
 
+    /// Writes the whole session, what waits included, into a folder of its own among the system's temporary files,
+    /// and gives that folder: for the end of the program while the disk refuses events.
+    pub(crate) fn rescue(&self) -> anyhow::Result<PathBuf> {
+        let folder = format!("scumble-{}-{}", self.header.participant, self.header.seed);
+        let directory = std::env::temp_dir().join(folder);
+        SessionWriter::recover(&directory, &self.header, &self.events)?;
+        Ok(directory)
+    }
+
     /// Why events wait; `None` while everything is on disk.
     pub(crate) fn problem(&self) -> Option<&str> {
         self.problem.as_deref()
@@ -114,7 +123,7 @@ impl Recorder {
 
     /// Whether the last event has been given.
     pub(crate) fn is_closed(&self) -> bool {
-        matches!(self.events.last(), Some(Event::End(_) | Event::Stop(_) | Event::Discard(_)))
+        self.events.last().is_some_and(Event::is_last)
     }
 
     /// Whether the participant has begun.

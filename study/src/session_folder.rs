@@ -35,9 +35,8 @@ pub(crate) fn find(study: &Path, code: &str) -> Result<Found, Error> {
         1 => study.join(code),
         _ => study.join(format!("{code}.{number}")),
     };
-    let is_taken = |number: u32| [HEADER_FILE, EVENTS_FILE].iter().any(|file| folder(number).join(file).exists());
-    let taken = (1..).take_while(|&number| is_taken(number)).last();
-    let Some(last) = taken else {
+    let is_taken = |number: &u32| [HEADER_FILE, EVENTS_FILE].iter().any(|file| folder(*number).join(file).exists());
+    let Some(last) = numbers(study, code).into_iter().filter(is_taken).max() else {
         return Ok(Found::Free(folder(1)));
     };
     let directory = folder(last);
@@ -52,6 +51,16 @@ pub(crate) fn find(study: &Path, code: &str) -> Result<Found, Error> {
     let age_secs = secs_between(session.last_known_at(), jiff::Timestamp::now());
     let (trials, trials_at_most) = (progress.trials, progress.trials_at_most);
     Ok(Found::Interrupted(Interrupted { directory, age_secs, trials, trials_at_most }))
+}
+
+/// The numbers of the folders that bear a participant's code; a gap among them hides none.
+fn numbers(study: &Path, code: &str) -> Vec<u32> {
+    let number = |name: &str| match name.strip_prefix(code)? {
+        "" => Some(1),
+        behind => behind.strip_prefix('.')?.parse().ok(),
+    };
+    let entries = std::fs::read_dir(study).into_iter().flatten().flatten();
+    entries.filter_map(|entry| number(entry.file_name().to_str()?)).collect()
 }
 
 #[cfg(test)]

@@ -200,7 +200,8 @@ impl SessionView {
         if let Some(problem) = recorder.problem() {
             let line = |event| serde_json::to_string(event).unwrap_or_else(|error| error.to_string());
             let lines = recorder.unsaved().iter().map(line).collect();
-            return Outcome::Unsaved { problem: problem.into(), lines, directory };
+            let rescued_to = recorder.rescue().ok();
+            return Outcome::Unsaved { problem: problem.into(), lines, directory, rescued_to };
         }
         match &self.fatal {
             Some(problem) => Outcome::Stopped { problem: problem.clone(), directory },

@@ -121,8 +121,14 @@ impl Sitting {
     pub(crate) fn go_on(&mut self) {
         if let Some(pause) = self.pause.take() {
             let interrupted_secs = Some(pause.earlier_secs + pause.began_at.elapsed().as_secs_f64());
-            self.recorder.append(Event::Resume(Moment { interrupted_secs, ..moment(pause.notes) }));
-            // A round that has no answer yet is as good as repeated.
+            let mut notes = pause.notes;
+            // A round without an answer is as good as repeated; the record says so, or why else it was not.
+            if pause.repeats_round
+                && let Err(refusal) = self.experiment.clone().repeat_round()
+            {
+                notes.push(format!("the round was to be repeated and was not: {refusal}"));
+            }
+            self.recorder.append(Event::Resume(Moment { interrupted_secs, ..moment(notes) }));
             if pause.repeats_round {
                 self.repeat_round();
             }

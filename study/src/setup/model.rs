@@ -130,6 +130,7 @@ impl Setup {
     /// Another folder.
     pub(crate) fn set_folder(&mut self, folder: String) {
         self.study.set_folder(folder, self.language);
+        self.forget_participant();
     }
 
     /// A folder that was dropped on the window or picked from a list.
@@ -151,6 +152,13 @@ impl Setup {
     /// Another participant's code.
     pub(crate) fn set_participant(&mut self, code: String) {
         self.study.set_participant(code);
+        self.forget_participant();
+    }
+
+    /// What one person agreed to and told is not another one's.
+    fn forget_participant(&mut self) {
+        self.agreed = None;
+        self.about = About::default();
     }
 
     /// Another participant's number; empty for the one at the end of the code.

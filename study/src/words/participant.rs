@@ -90,7 +90,7 @@ pub(super) const ENGLISH: ParticipantWords = ParticipantWords {
     how_one: "Say each time whether it was a line. Take the time you need. Many pictures are too \
               blurred to be sure; then say what seems more likely, that helps as much as any other answer.",
     keys_two: "Left: left arrow key or F.   Right: right arrow key or J.   Pause: Escape.",
-    keys_one: "Yes: left arrow key, F or Y.   No: right arrow key, J or N.   Pause: Escape.",
+    keys_one: "Yes: left arrow key or Y.   No: right arrow key or N.   Pause: Escape.",
     example_line: "A line",
     example_steps: "Not a line: steps",
     practice_follows: |count| match count {
@@ -105,8 +105,8 @@ pub(super) const ENGLISH: ParticipantWords = ParticipantWords {
     no: "No",
     left_keys: "left arrow or F",
     right_keys: "right arrow or J",
-    yes_keys: "left arrow, F or Y",
-    no_keys: "right arrow, J or N",
+    yes_keys: "left arrow or Y",
+    no_keys: "right arrow or N",
     practice_of: |number, count| format!("Practice {number} of {count}"),
     round_of: |round, rounds| format!("Round {round} of {rounds}"),
     correct: "Correct",
@@ -133,7 +133,7 @@ pub(super) const ENGLISH: ParticipantWords = ParticipantWords {
     or_space: "or press the space bar",
     close_window: "Close the window",
     thanks: "Thank you",
-    all_saved: "That was the last question. Your answers are saved.",
+    all_saved: "The session is over. Your answers are saved.",
     close: "Close",
     stopped: "The session has stopped",
     call_someone: "Please call the person who runs the study.",
@@ -168,7 +168,7 @@ pub(super) const GERMAN: ParticipantWords = ParticipantWords {
     how_one: "Sagen Sie jedes Mal, ob es eine Linie war. Nehmen Sie sich Zeit. Oft ist das Bild so unscharf, \
               dass man nicht sicher sein kann; antworten Sie dann, was Ihnen wahrscheinlicher vorkommt.",
     keys_two: "Links: Pfeiltaste links oder F.   Rechts: Pfeiltaste rechts oder J.   Pause: Escape.",
-    keys_one: "Ja: Pfeiltaste links, F oder Y.   Nein: Pfeiltaste rechts, J oder N.   Pause: Escape.",
+    keys_one: "Ja: Pfeiltaste links oder J.   Nein: Pfeiltaste rechts oder N.   Pause: Escape.",
     example_line: "Eine Linie",
     example_steps: "Keine Linie: Stufen",
     practice_follows: |count| match count {
@@ -183,8 +183,8 @@ pub(super) const GERMAN: ParticipantWords = ParticipantWords {
     no: "Nein",
     left_keys: "Pfeil links oder F",
     right_keys: "Pfeil rechts oder J",
-    yes_keys: "Pfeil links, F oder Y",
-    no_keys: "Pfeil rechts, J oder N",
+    yes_keys: "Pfeil links oder J",
+    no_keys: "Pfeil rechts oder N",
     practice_of: |number, count| format!("Übung {number} von {count}"),
     round_of: |round, rounds| format!("Runde {round} von {rounds}"),
     correct: "Richtig",
@@ -198,7 +198,7 @@ pub(super) const GERMAN: ParticipantWords = ParticipantWords {
     it_counts_two: "Ab hier zählen Ihre Antworten, und Sie erfahren nicht mehr, ob sie richtig waren. \
                     Manche Paare sehen gleich aus, das gehört dazu: Raten Sie.",
     it_counts_one: "Ab hier zählen Ihre Antworten, und Sie erfahren nicht mehr, ob sie richtig waren. Bei manchen \
-                    Bildern kann man nur zweifeln: Antworten Sie, was Ihnen wahrscheinlicher vorkommt.",
+                    Bildern werden Sie unsicher sein: Antworten Sie, was Ihnen wahrscheinlicher vorkommt.",
     rest: "Ruhen Sie Ihre Augen kurz aus: Blicken Sie auf und in die Ferne. Machen Sie weiter, wenn Sie bereit sind.",
     paused: "Pause",
     saved: |answers| match answers {
@@ -211,9 +211,9 @@ pub(super) const GERMAN: ParticipantWords = ParticipantWords {
     or_space: "oder die Leertaste",
     close_window: "Fenster schließen",
     thanks: "Vielen Dank",
-    all_saved: "Das war die letzte Frage. Ihre Antworten sind gespeichert.",
+    all_saved: "Die Sitzung ist zu Ende. Ihre Antworten sind gespeichert.",
     close: "Schließen",
-    stopped: "Die Sitzung wurde angehalten",
+    stopped: "Die Sitzung wurde abgebrochen",
     call_someone: "Bitte rufen Sie die Versuchsleitung.",
     answers_are_in: |folder| {
         format!(

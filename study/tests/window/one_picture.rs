@@ -52,8 +52,8 @@ fn a_yes_no_session_survives_a_crash_and_no_trial_looks_unlike_another() {
             0 => sitting.answer("key y", Answer::Yes),
             1 => sitting.answer("key n", Answer::No),
             2 => sitting.answer("key Left", Answer::Yes),
-            3 => sitting.answer("key j", Answer::No),
-            _ => sitting.answer("key f", Answer::Yes),
+            3 => sitting.answer("key Right", Answer::No),
+            _ => sitting.answer("key j", Answer::Yes),
         }
     }
     let record = sitting.finish();

@@ -51,9 +51,9 @@ pub(in crate::words) const GERMAN: DeskWords = DeskWords {
     lines: |tally| format!("{} von {} Linien für Stufen gehalten", tally.wrong, tally.trials),
     catch_trials: |tally| format!("{} von {} Kontrolldurchgängen verfehlt", tally.wrong, tally.trials),
     missed_frames: |count| match count {
-        0 => "kein Bildwechsel verpasst".to_owned(),
-        1 => "1 Bildwechsel verpasst".to_owned(),
-        _ => format!("{count} Bildwechsel verpasst"),
+        0 => "kein Bild zu spät".to_owned(),
+        1 => "Bilder um 1 Bildwiederholung zu spät".to_owned(),
+        _ => format!("Bilder um {count} Bildwiederholungen zu spät"),
     },
     texel: |texel_px| format!("Texel {} px", decimal(texel_px)),
     x_axis: "Durchgang dieses Verfahrens",
@@ -131,8 +131,10 @@ pub(in crate::words) const GERMAN: DeskWords = DeskWords {
         Barrier::RoundUnanswered => "Diese Runde hat noch keine Antworten.",
     },
     ask_repeat_round: |round, answers| match answers {
-        1 => format!("Runde {round} wiederholen? Ihre Antwort bleibt aufgezeichnet, zählt aber nicht."),
-        _ => format!("Runde {round} wiederholen? Ihre {answers} Antworten bleiben aufgezeichnet, zählen aber nicht."),
+        1 => format!("Runde {round} wiederholen? Die Antwort dieser Runde bleibt aufgezeichnet, zählt aber nicht."),
+        _ => format!(
+            "Runde {round} wiederholen? Die {answers} Antworten dieser Runde bleiben aufgezeichnet, zählen aber nicht."
+        ),
     },
     ask_stop: |status: &Status| {
         let answers = match status.progress.answered {

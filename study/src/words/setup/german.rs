@@ -36,7 +36,7 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
         Some(number) => format!("{code}, Nummer {number}"),
         None => code.to_owned(),
     },
-    number: "Nummer für die Folge der Runden",
+    number: "Nummer für die Reihenfolge der Runden",
     monitor: "Bildschirm",
     monitor_named,
     interrupted: "Diese Sitzung",
@@ -82,7 +82,7 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
     table_text: |rows| {
         format!(
             "Der Bildschirm ist gemessen: luminance.csv im Ordner der Studie enthält {}. Die Bilder werden für diese \
-             Kurve gezeichnet; hier ist nichts einzustellen.\n\nDie Linie ist das Licht jeder Stufe, ein Punkt ist \
+             Kurve gezeichnet; hier ist nichts einzustellen.\n\nDie Linie ist die Leuchtdichte jeder Graustufe, ein Punkt ist \
              eine Messung. Die breite Linie ist sRGB, zum Vergleich.",
             range(rows)
         )
@@ -130,7 +130,7 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
     about_value,
 
     summary_text: "Das wird aufgezeichnet, wenn Sie beginnen:",
-    summary_each_trial: "Und zu jedem Durchgang: die Bilder, die Antwort und die Zeit, die sie brauchte.",
+    summary_each_trial: "Und zu jedem Durchgang: die Bilder, die Antwort und wie lange sie gedauert hat.",
     unfinished: |page| format!("Auf der Seite \u{201e}{}\u{201c} fehlt etwas.", title(page)),
     start: "Beginnen",
 };
@@ -152,7 +152,7 @@ fn keys(page: Page) -> &'static str {
     match page {
         Page::Study => "Eingabe: weiter      Tab: nächstes Feld",
         Page::Room => "Tab: Text verlassen      Eingabe: neue Zeile      Escape: zurück",
-        Page::Consent => "Bild- und Pfeiltasten: Text bewegen      Tab, Eingabe: auswählen      Escape: zurück",
+        Page::Consent => "Bild- und Pfeiltasten: Text blättern      Tab, Eingabe: auswählen      Escape: zurück",
         Page::Declined => "Tab, Eingabe: auswählen      Escape: zurück",
         Page::Summary => "Eingabe: beginnen      Escape: zurück",
         _ => "Eingabe: weiter      Tab: nächstes Feld      Escape: zurück",
@@ -223,7 +223,10 @@ fn folder_problem(problem: &FolderProblem) -> String {
     match problem {
         FolderProblem::NotAFolder(path) => format!("{} ist eine Datei; erlaubt ist ein Ordner", path.display()),
         FolderProblem::NotWritable { path, reason } => {
-            format!("{}: lässt sich nicht schreiben ({reason}); erlaubt ist ein beschreibbarer Ordner", path.display())
+            format!(
+                "{}: darin lässt sich nicht schreiben ({reason}); erlaubt ist ein beschreibbarer Ordner",
+                path.display()
+            )
         }
         FolderProblem::Protocol(error) => error.to_string(),
         FolderProblem::Differs { file, name, asked, asked_name } => format!(
@@ -259,7 +262,7 @@ fn gamma_result(level: Option<u8>) -> String {
     }
     format!(
         "{found} Das ist nicht sRGB (Stufe {SRGB_LEVEL}), von dem die Bilder ausgehen. Stellen Sie am Bildschirm das Gamma \
-         auf 2,2 oder den Bildmodus auf sRGB, schalten Sie Nachtfarben und dynamischen Kontrast aus, wählen Sie seine \
+         auf 2,2 oder den Bildmodus auf sRGB, schalten Sie Nachtmodus und dynamischen Kontrast aus, wählen Sie seine \
          eigene Auflösung, und prüfen Sie noch einmal; oder messen Sie ihn mit einem Photometer und legen Sie \
          luminance.csv in den Ordner der Studie."
     )
