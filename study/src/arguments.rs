@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
 use jiff::Timestamp;
-use scumble_psychophysics::{Language, ObserverModel, Protocol, SessionHeader, Software};
+use scumble_psychophysics::{Language, ObserverModel, Protocol, SessionHeader};
+
+use crate::software::software;
 
 /// Measure how much a shadow's edge must be blurred before its steps vanish
 ///
@@ -141,8 +143,7 @@ impl Arguments {
 
     /// The header of a fresh session; the display is known once there is a window.
     pub(crate) fn header(&self, code: &str, protocol: Protocol) -> anyhow::Result<SessionHeader> {
-        let software = Software::of("scumble-study", env!("CARGO_PKG_VERSION"));
-        let mut header = SessionHeader::new(code, protocol, self.seed(), self.started_at, software);
+        let mut header = SessionHeader::new(code, protocol, self.seed(), self.started_at, software());
         header.participant_number = self.participant_number.unwrap_or(header.participant_number);
         header.language = Some(self.language);
         header.simulated_observer = self.rehearse;

@@ -21,6 +21,7 @@ mod session_folder;
 mod session_view;
 mod setup;
 mod sitting;
+mod software;
 mod theme;
 mod words;
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::rc::Rc;
 
 use eframe::egui;
-use scumble_psychophysics::{Observer, Software};
+use scumble_psychophysics::Observer;
 
 use crate::arguments::{Arguments, ResumePolicy};
 use crate::display::monitors;
@@ -14,8 +14,9 @@ use crate::rehearsal::Rehearsal;
 use crate::screen;
 use crate::session_folder::{Found, find};
 use crate::session_view::SessionView;
-use crate::setup::{Choice, Given, MeasuredDisplay, Ready, RecentFolders, Setup, SetupAction};
+use crate::setup::{Given, MeasuredDisplay, Ready, RecentFolders, Setup, SetupAction};
 use crate::sitting::{self, Sitting};
+use crate::software::software;
 use crate::theme;
 use crate::words::words;
 
@@ -97,21 +98,14 @@ impl Program {
                 return;
             }
             SetupAction::Done(ready) => self.begin(*ready),
-            SetupAction::Interrupted(directory, choice) => {
-                let policy = match choice {
-                    Choice::Resume => ResumePolicy::Continue,
-                    Choice::RepeatRound => ResumePolicy::RepeatRound,
-                    Choice::Discard => ResumePolicy::Discard,
-                };
-                match resume(&directory, policy) {
-                    Ok(None) => {
-                        setup.look_again();
-                        return;
-                    }
-                    Ok(Some(sitting)) => Ok(SessionView::new(sitting, None, MeasuredDisplay::default())),
-                    Err(error) => Err(error),
+            SetupAction::Interrupted(directory, policy) => match resume(&directory, policy) {
+                Ok(None) => {
+                    setup.look_again();
+                    return;
                 }
-            }
+                Ok(Some(sitting)) => Ok(SessionView::new(sitting, None, MeasuredDisplay::default())),
+                Err(error) => Err(error),
+            },
         };
         self.part = match next {
             Ok(view) => Part::Session(Box::new(view)),
@@ -125,8 +119,7 @@ impl Program {
         let Found::Free(directory) = find(folder, &ready.participant)? else {
             anyhow::bail!("{} holds a session of {} by now", folder.display(), ready.participant);
         };
-        let software = Software::of("scumble-study", env!("CARGO_PKG_VERSION"));
-        let header = ready.header(self.arguments.seed(), self.arguments.started_at, software);
+        let header = ready.header(self.arguments.seed(), self.arguments.started_at, software());
         RecentFolders::of_user().remember(folder);
         let sitting = Sitting::fresh(ready.study.clone(), &directory, header)?;
         Ok(SessionView::new(sitting, None, ready.measured))

@@ -1,6 +1,9 @@
 //! A session on the participant's screen: shows the stage, passes on what the participant did, and sees to
 //! it that the answer is on disk before the next stage is drawn.
 
+mod obey;
+mod rehearse;
+
 use std::time::{Duration, Instant};
 
 use eframe::egui;
@@ -12,7 +15,7 @@ use crate::display::display;
 use crate::keys;
 use crate::outcome::Outcome;
 use crate::presentation::{FIXATION, Presentation, Screen};
-use crate::rehearsal::{Move, Rehearsal, Scene};
+use crate::rehearsal::{Rehearsal, Scene};
 use crate::screen::{self, Action};
 use crate::setup::MeasuredDisplay;
 use crate::sitting::Sitting;
@@ -140,54 +143,6 @@ impl SessionView {
         }
     }
 
-    /// What a simulated person sees.
-    fn scene(&self) -> Scene<'_> {
-        let sitting = &self.sitting;
-        if self.fatal.is_some() || sitting.recorder().problem().is_some() || self.administrator.covers_screen() {
-            return Scene::Waiting;
-        }
-        if sitting.is_paused() {
-            return Scene::Page("paused");
-        }
-        match sitting.experiment().stage() {
-            Stage::Practice(_) | Stage::Trial(_) => match &self.presentation {
-                Some(presentation) => match presentation.shown_at() {
-                    Some(shown_at) => Scene::Pictures { trial: presentation.trial(), shown_at },
-                    None => Scene::Waiting,
-                },
-                None => Scene::Waiting,
-            },
-            stage => Scene::Page(stage.name()),
-        }
-    }
-
-    /// Lets the simulated person press a key.
-    pub(crate) fn rehearse(&mut self, raw_input: &mut egui::RawInput) {
-        if raw_input.viewport_id == egui::ViewportId::ROOT
-            && let Err(error) = self.press(raw_input)
-        {
-            self.stop(&error);
-        }
-    }
-
-    fn press(&mut self, raw_input: &mut egui::RawInput) -> anyhow::Result<()> {
-        let Some(mut person) = self.rehearsal.take() else { return Ok(()) };
-        let rules = self.sitting.experiment().protocol().pictures;
-        let next = person.act(self.scene(), &rules, Instant::now());
-        self.rehearsal = Some(person);
-        match next? {
-            Move::Press(key) => {
-                for pressed in [true, false] {
-                    let (physical_key, repeat, modifiers) = (None, false, egui::Modifiers::NONE);
-                    raw_input.events.push(egui::Event::Key { key, physical_key, pressed, repeat, modifiers });
-                }
-            }
-            Move::Wait(wait) => self.wake_after = Some(wait),
-            Move::Nothing => {}
-        }
-        Ok(())
-    }
-
     fn stop(&mut self, error: &anyhow::Error) {
         self.fatal = Some(format!("{error:#}"));
     }
@@ -254,31 +209,6 @@ impl SessionView {
             ui.ctx().send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Focus);
         }
         self.administrator.tell(ui.ctx(), &self.sitting)
-    }
-
-    /// Does what the administrator ordered.
-    fn obey(&mut self, order: Order) {
-        match order {
-            Order::Pause => self.hide_pictures(),
-            Order::Resume => {
-                self.administrator.uncover_screen();
-                self.sitting.go_on();
-            }
-            Order::Note(note) => self.sitting.note(note),
-            Order::RepeatPractice => self.sitting.repeat_practice(),
-            Order::RepeatRound => {
-                self.presentation = None;
-                self.sitting.repeat_round();
-            }
-            Order::Stop => self.sitting.stop(),
-        }
-        self.administrator.note_news();
-    }
-
-    /// Pauses; the trial under way is shown anew afterwards.
-    fn hide_pictures(&mut self) {
-        self.presentation = None;
-        self.sitting.pause();
     }
 }
 

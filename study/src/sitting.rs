@@ -66,7 +66,7 @@ impl Sitting {
         &self.recorder
     }
 
-    /// Seconds since it began.
+    /// What turns an instant into seconds since it began.
     pub(crate) fn clock(&self) -> &Clock {
         &self.clock
     }

@@ -151,7 +151,7 @@ impl Answered {
         let allowed = "true where the answer is the right one for the pictures, else false";
         require(self.correct == is_right, "correct", self.correct, allowed)?;
         let secs = self.response_time_secs;
-        require(is_response_time(secs), "response_time_secs", secs, RESPONSE_TIME_ALLOWED)?;
+        require(is_duration(secs), "response_time_secs", secs, DURATION_ALLOWED)?;
         if let Some(timing) = self.timing {
             timing.check()?;
         }
@@ -165,15 +165,15 @@ impl Answered {
 impl Timing {
     /// Refuses an onset that is no time; the error names the key.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        require(is_response_time(self.onset_secs), "timing.onset_secs", self.onset_secs, RESPONSE_TIME_ALLOWED)
+        require(is_duration(self.onset_secs), "timing.onset_secs", self.onset_secs, DURATION_ALLOWED)
     }
 }
 
-/// What a response time may be.
-pub(crate) const RESPONSE_TIME_ALLOWED: &str = "a finite number of seconds, at least 0";
+/// What a response time, an onset and an interruption may be.
+pub(crate) const DURATION_ALLOWED: &str = "a finite number of seconds, at least 0";
 
-/// Whether a number can be a response time: finite and at least 0.
-pub(crate) fn is_response_time(secs: f64) -> bool {
+/// Whether a number of seconds can be a duration, or a time since the session began: finite and at least 0.
+pub(crate) fn is_duration(secs: f64) -> bool {
     secs.is_finite() && secs >= 0.0
 }
 

@@ -4,7 +4,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Deserializer};
 
-use crate::event::{Answered, Event, Moment, RESPONSE_TIME_ALLOWED, Timing, is_response_time};
+use crate::event::{Answered, DURATION_ALLOWED, Event, Moment, Timing, is_duration};
 use crate::trial::{Answer, Trial};
 
 /// The keys of a line. A key that is there has a value: `null` is none.
@@ -101,8 +101,8 @@ impl EventLine {
         ];
         refuse(foreign, "other than trial, catch and practice")?;
         let interrupted_secs = self.interrupted_secs;
-        if let Some(secs) = interrupted_secs.filter(|secs| !is_response_time(*secs)) {
-            return Err(format!("interrupted_secs {secs}, expected {RESPONSE_TIME_ALLOWED}"));
+        if let Some(secs) = interrupted_secs.filter(|secs| !is_duration(*secs)) {
+            return Err(format!("interrupted_secs {secs}, expected {DURATION_ALLOWED}"));
         }
         Ok(Moment { at: needed("at", self.at)?, notes: self.notes.unwrap_or_default(), interrupted_secs })
     }

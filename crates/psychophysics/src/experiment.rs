@@ -6,83 +6,15 @@
 //! feeding its recorded answers to a new machine. A staircase learns from the radius that was *shown*;
 //! a placement beyond what a picture can hold is clamped, and [`Trial`] holds both.
 
-use serde::{Deserialize, Serialize};
-
 use crate::error::{Error, require};
-use crate::event::{Answered, Event, RESPONSE_TIME_ALLOWED, Reply, Timing, is_response_time};
+use crate::event::{Answered, DURATION_ALLOWED, Event, Reply, Timing, is_duration};
 use crate::picture::{Request, draw_trial};
+use crate::progress::Progress;
 use crate::protocol::Protocol;
+use crate::stage::Stage;
 use crate::timetable::Timetable;
 use crate::track::Track;
-use crate::trial::{Answer, Condition, Role, Trial};
-
-/// What is to be shown.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stage {
-    /// The instructions, once at the beginning.
-    Instructions,
-    /// A trial with feedback after the answer.
-    Practice(Trial),
-    /// Whether the answer in practice was right.
-    Feedback {
-        /// Whether it was.
-        correct: bool,
-        /// The right one.
-        right_answer: Answer,
-    },
-    /// A trial without feedback.
-    Trial(Trial),
-    /// A rest; before round 1 it tells that there is no feedback from here on.
-    Rest {
-        /// The round that follows or goes on, from 1.
-        round: u32,
-        /// Number of rounds.
-        rounds: u32,
-        /// Whether the round is under way.
-        within_round: bool,
-    },
-    /// Thanks.
-    Finished,
-}
-
-impl Stage {
-    /// Its name in messages.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Instructions => "instructions",
-            Self::Practice(_) => "practice",
-            Self::Feedback { .. } => "feedback",
-            Self::Trial(_) => "trial",
-            Self::Rest { .. } => "rest",
-            Self::Finished => "finished",
-        }
-    }
-
-    /// The trial on show, in practice or not.
-    pub fn trial(&self) -> Option<&Trial> {
-        match self {
-            Self::Practice(trial) | Self::Trial(trial) => Some(trial),
-            _ => None,
-        }
-    }
-}
-
-/// How far a session is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Progress {
-    /// Trials answered after practice, whatever their role.
-    pub answered: u32,
-    /// Trials answered that a staircase learned from.
-    pub trials: u32,
-    /// Fewest measured trials of the whole session, given the answers so far.
-    pub trials_at_least: u32,
-    /// Most measured trials of the whole session, given the answers so far.
-    pub trials_at_most: u32,
-    /// Round under way, from 1.
-    pub round: u32,
-    /// Number of rounds.
-    pub rounds: u32,
-}
+use crate::trial::{Condition, Role, Trial};
 
 /// A session as it runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -156,7 +88,7 @@ impl Experiment {
             return Err(self.refuse("answer", "practice and trial"));
         };
         let Reply { answer, response_time_secs, pictures_sha256, timing } = reply;
-        require(is_response_time(response_time_secs), "response_time_secs", response_time_secs, RESPONSE_TIME_ALLOWED)?;
+        require(is_duration(response_time_secs), "response_time_secs", response_time_secs, DURATION_ALLOWED)?;
         let of_question = trial.pictures.answers().contains(&answer);
         let allowed = "left and right for two pictures, yes and no for one";
         require(of_question, "answer", answer.name(), allowed)?;
@@ -226,22 +158,7 @@ impl Experiment {
 
     /// Number of measured trials and rounds.
     pub fn progress(&self) -> Progress {
-        let protocol = &self.protocol;
-        let total = |of_open: fn(u32, &Protocol) -> u32| {
-            let of_track = |track: &Track| match track.is_done() {
-                true => track.trials(),
-                false => of_open(track.trials(), protocol),
-            };
-            self.tracks().iter().map(of_track).sum()
-        };
-        Progress {
-            answered: self.answered - self.replaced,
-            trials: self.tracks().iter().map(Track::trials).sum(),
-            trials_at_least: total(|trials, protocol| protocol.schedule.trials_min.max(trials + 1)),
-            trials_at_most: total(|_, protocol| protocol.schedule.trials_max),
-            round: self.timetable.round_number(),
-            rounds: self.timetable.rounds() as u32,
-        }
+        Progress::of(&self.protocol, &self.timetable, self.answered - self.replaced)
     }
 
     /// Every QUEST, in the order of the session's rounds.

@@ -180,6 +180,21 @@ impl Protocol {
         self.rounds().into_iter().flat_map(|round| self.conditions_of(round)).collect()
     }
 
+    /// Share of the trials that a staircase learns from, catch trials and lines being drawn independently.
+    pub fn measured_share(&self) -> f64 {
+        (1.0 - self.catch_share()) * (1.0 - self.line_share())
+    }
+
+    /// Share of catch trials among all trials.
+    pub(crate) fn catch_share(&self) -> f64 {
+        self.catch_trials.map_or(0.0, |catch| catch.share)
+    }
+
+    /// Share of lines among the trials that are not catch trials.
+    pub(crate) fn line_share(&self) -> f64 {
+        self.line_trials.map_or(0.0, |lines| lines.share)
+    }
+
     /// What is measured in a round.
     pub(crate) fn conditions_of(&self, round: Round) -> Vec<Condition> {
         let Round { pattern, contrast, kernel } = round;

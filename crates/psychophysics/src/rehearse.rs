@@ -2,8 +2,9 @@
 
 use crate::error::Error;
 use crate::event::{Event, Reply, Timing};
-use crate::experiment::{Experiment, Stage};
+use crate::experiment::Experiment;
 use crate::observer::Observer;
+use crate::stage::Stage;
 
 /// Fixation interval before each trial, as in the study's window.
 const FIXATION_SECS: f64 = 0.5;

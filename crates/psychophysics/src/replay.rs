@@ -9,8 +9,9 @@ use serde_json::Value;
 use crate::complaint::quoted;
 use crate::error::Error;
 use crate::event::{Answered, Event, Reply};
-use crate::experiment::{Experiment, Stage};
+use crate::experiment::Experiment;
 use crate::header::SessionHeader;
+use crate::stage::Stage;
 use crate::trial::Trial;
 
 impl Experiment {

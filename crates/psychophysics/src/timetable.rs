@@ -51,8 +51,8 @@ impl Timetable {
             seed,
             tracks_per_round: tracks.len() / rounds.len(),
             tracks,
-            catch_share: protocol.catch_trials.map_or(0.0, |catch| catch.share),
-            line_share: protocol.line_trials.map_or(0.0, |lines| lines.share),
+            catch_share: protocol.catch_share(),
+            line_share: protocol.line_share(),
             round: 0,
             cycle: Vec::new(),
         })

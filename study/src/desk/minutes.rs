@@ -17,9 +17,8 @@ impl MinutesLeft {
     pub(crate) fn of(progress: &Progress, protocol: &Protocol, events: &[Event]) -> Option<Self> {
         let secs = median(&mut durations_secs(events))?;
         // Lines and catch trials come between the trials that are counted.
-        let measured_share = (1.0 - protocol.catch_trials.map_or(0.0, |catch| catch.share))
-            * (1.0 - protocol.line_trials.map_or(0.0, |lines| lines.share));
-        let minutes = |trials: u32| f64::from(trials.saturating_sub(progress.trials)) / measured_share * secs / 60.0;
+        let secs = secs / protocol.measured_share();
+        let minutes = |trials: u32| f64::from(trials.saturating_sub(progress.trials)) * secs / 60.0;
         Some(Self { at_least: minutes(progress.trials_at_least), at_most: minutes(progress.trials_at_most) })
     }
 }

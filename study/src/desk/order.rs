@@ -1,7 +1,5 @@
 //! What the administrator can order, and what stands in the way of it.
 
-use scumble_psychophysics::Stage;
-
 use super::Status;
 
 /// What the session is to do. The session carries it out; the panel only asks for it.
@@ -53,7 +51,7 @@ impl Status {
             Order::Pause => self.is_paused.then_some(Barrier::AlreadyPaused),
             Order::Resume => (!self.is_paused).then_some(Barrier::NotPaused),
             Order::RepeatPractice if !self.has_practice => Some(Barrier::NoPractice),
-            Order::RepeatPractice => matches!(self.stage, Stage::Trial(_)).then_some(Barrier::BetweenTrials),
+            Order::RepeatPractice => (!self.can_repeat_practice).then_some(Barrier::BetweenTrials),
             Order::RepeatRound => (!self.can_repeat_round).then_some(Barrier::RoundUnanswered),
         }
     }

@@ -36,6 +36,7 @@ pub(crate) struct Status {
     /// Whether it was ended before the last trial.
     pub(crate) is_ended_early: bool,
     pub(crate) has_practice: bool,
+    pub(crate) can_repeat_practice: bool,
     pub(crate) can_repeat_round: bool,
     /// Answers that a repeated round would replace.
     pub(crate) answers_of_round: u32,
@@ -141,6 +142,7 @@ impl Status {
             is_over,
             is_ended_early: matches!(events.last(), Some(Event::Stop(_) | Event::Discard(_))),
             has_practice: !protocol.practice.ratios.is_empty(),
+            can_repeat_practice: experiment.clone().repeat_practice().is_ok(),
             can_repeat_round: experiment.clone().repeat_round().is_ok(),
             answers_of_round: answers.iter().filter(|answered| answered.trial.round == progress.round).count() as u32,
             progress,

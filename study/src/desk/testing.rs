@@ -67,7 +67,12 @@ impl Rehearsed {
     }
 
     pub(super) fn status_of(&self, is_paused: bool, disk: Disk) -> Status {
-        let given = Given {
+        Status::of(self.given(is_paused, disk), &mut Bands::default()).unwrap()
+    }
+
+    /// What the status of now is made from.
+    pub(super) fn given(&self, is_paused: bool, disk: Disk) -> Given<'_> {
+        Given {
             experiment: &self.experiment,
             header: &self.header,
             events: &self.events,
@@ -75,8 +80,7 @@ impl Rehearsed {
             has_begun: *self.experiment.stage() != Stage::Instructions,
             is_paused,
             disk,
-        };
-        Status::of(given, &mut Bands::default()).unwrap()
+        }
     }
 }
 

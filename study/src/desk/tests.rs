@@ -3,7 +3,7 @@
 use scumble_psychophysics::{Event, Role, Stage, Track};
 
 use super::testing::Rehearsed;
-use super::{Activity, Bands, Barrier, Disk, Given, Order, RoundState, Status};
+use super::{Activity, Bands, Barrier, Disk, Order, RoundState, Status};
 
 #[test]
 fn every_chart_holds_its_staircases_responses_verdict_and_estimate() {
@@ -47,16 +47,7 @@ fn intervals_that_are_kept_equal_those_computed_anew() {
 }
 
 fn status_with(session: &Rehearsed, bands: &mut Bands) -> Status {
-    let given = Given {
-        experiment: &session.experiment,
-        header: &session.header,
-        events: &session.events,
-        elapsed_secs: session.now_secs,
-        has_begun: *session.experiment.stage() != Stage::Instructions,
-        is_paused: false,
-        disk: Disk::Saved,
-    };
-    Status::of(given, bands).unwrap()
+    Status::of(session.given(false, Disk::Saved), bands).unwrap()
 }
 
 #[test]

@@ -151,9 +151,7 @@ fn progress(ui: &Ui, screen: Rect, experiment: &Experiment, words: &ParticipantW
     text(ui, above, Align2::CENTER_BOTTOM, TextStyle::Small, &(words.round_of)(progress.round, progress.rounds));
 
     // Of the answers to come, these are for staircases. Their greatest number only shrinks, so the bar only grows.
-    let measured_share = (1.0 - protocol.catch_trials.map_or(0.0, |catch| catch.share))
-        * (1.0 - protocol.line_trials.map_or(0.0, |lines| lines.share));
-    let at_most = f64::from(progress.trials_at_most) / measured_share;
+    let at_most = f64::from(progress.trials_at_most) / protocol.measured_share();
     let done = (f64::from(progress.answered) / at_most).min(1.0) as f32;
     let track = Rect::from_center_size(centre, Vec2::new(240.0, 4.0) * scale);
     let filled = Rect::from_min_size(track.min, Vec2::new(track.width() * done, track.height()));

@@ -19,7 +19,7 @@ mod study_entry;
 mod study_folder;
 
 pub(crate) use about::About;
-pub(crate) use action::{Choice, SetupAction};
+pub(crate) use action::SetupAction;
 pub(crate) use calibration::arcmin;
 pub(crate) use consent::ConsentProblem;
 pub(crate) use effort::Effort;

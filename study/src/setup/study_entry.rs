@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
-use scumble_psychophysics::{Error, Language, Order, Protocol, SessionHeader, Software};
+use scumble_psychophysics::{Error, Language, Order, Protocol, SessionHeader};
 
 use crate::session_folder::Found;
+use crate::software::software;
 
 use super::consent::{ConsentProblem, ConsentText};
 use super::effort::Effort;
@@ -224,8 +225,7 @@ fn is_code(code: &str, protocol: &Protocol) -> bool {
 }
 
 fn header_of(code: &str, protocol: &Protocol) -> SessionHeader {
-    let software = Software::of("scumble-study", env!("CARGO_PKG_VERSION"));
-    SessionHeader::new(code, protocol.clone(), 0, Timestamp::UNIX_EPOCH, software)
+    SessionHeader::new(code, protocol.clone(), 0, Timestamp::UNIX_EPOCH, software())
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use std::path::Path;
 use scumble_psychophysics::{
     Answer, Answered, Consent, Demographics, Display, EVENTS_FILE, Event, Experience, Experiment, Gender, HEADER_FILE,
     Handedness, Language, Moment, Observer, ObserverModel, Protocol, Reply, SessionHeader, SessionWriter, Software,
-    Stage, Vision, rehearse,
+    Stage, Trial, Vision, rehearse,
 };
 
 /// The protocols that come with the crate.
@@ -142,4 +142,22 @@ pub fn files(name: &str) -> (String, String) {
     record(root.path(), small(name));
     let read = |file| std::fs::read_to_string(root.path().join(file)).unwrap();
     (read(HEADER_FILE), read(EVENTS_FILE))
+}
+
+/// The trials that staircases learned from.
+pub fn measured(events: &[Event]) -> Vec<Trial> {
+    let answered = events.iter().filter_map(Event::measured);
+    answered.map(|answered| answered.trial).collect()
+}
+
+/// A session after its practice.
+pub fn at_first_trial(protocol: Protocol) -> Experiment {
+    let mut experiment = Experiment::new(protocol, 1, 0).unwrap();
+    while !matches!(experiment.stage(), Stage::Trial(_)) {
+        match *experiment.stage() {
+            Stage::Practice(trial) => drop(experiment.answer(reply(trial.pictures.answers()[0], 1.0)).unwrap()),
+            _ => experiment.proceed().unwrap(),
+        }
+    }
+    experiment
 }

@@ -9,8 +9,9 @@ use egui_kittest::kittest::Queryable as _;
 use scumble_psychophysics::Protocol;
 
 use super::testing::*;
+use crate::arguments::ResumePolicy;
 use crate::session_folder::Found;
-use crate::setup::{Choice, Given, Page, RecentFolders, Setup, SetupAction};
+use crate::setup::{Given, Page, RecentFolders, Setup, SetupAction};
 
 fn press(harness: &mut Harness<'static, Shown>, keys: &[Key]) {
     for key in keys {
@@ -116,14 +117,17 @@ fn a_monitor_and_what_to_do_with_an_interrupted_session_are_asked_of_the_program
     harness.get_by_label_contains("Built-in").click();
     assert_eq!(asked(harness), Some(SetupAction::Monitor(1)));
 
-    let offered =
-        [("Go on with it", Choice::Resume), ("Repeat its round", Choice::RepeatRound), ("Discard it", Choice::Discard)];
+    let offered = [
+        ("Go on with it", ResumePolicy::Continue),
+        ("Repeat its round", ResumePolicy::RepeatRound),
+        ("Discard it", ResumePolicy::Discard),
+    ];
     let directory = std::env::current_dir().unwrap().join(NEW).join("p07");
-    for (label, choice) in offered {
+    for (label, policy) in offered {
         let find = |study: &Path, code: &str| Ok(Found::Interrupted(interrupted(study.join(code))));
         let harness = at_720(Setup::new(Given { find: Box::new(find), ..given(Path::new(NEW)) }));
         harness.get_by_label(label).click();
-        assert_eq!(asked(harness), Some(SetupAction::Interrupted(directory.clone(), choice)));
+        assert_eq!(asked(harness), Some(SetupAction::Interrupted(directory.clone(), policy)));
     }
 }
 

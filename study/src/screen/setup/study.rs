@@ -5,8 +5,9 @@ use egui::{Key, Ui};
 use scumble_psychophysics::Language;
 
 use super::{focus, widgets};
+use crate::arguments::ResumePolicy;
 use crate::session_folder::Found;
-use crate::setup::{Choice, OFFERED_PROTOCOLS, Setup, SetupAction};
+use crate::setup::{OFFERED_PROTOCOLS, Setup, SetupAction};
 use crate::words::setup::SetupWords;
 
 /// Widths of the lines for a path, a code and a number.
@@ -129,14 +130,17 @@ fn monitor(ui: &mut Ui, setup: &mut Setup, words: &SetupWords) -> Option<usize> 
 
 fn interrupted(ui: &mut Ui, setup: &Setup, words: &SetupWords) -> Option<SetupAction> {
     let Some(Found::Interrupted(session)) = setup.study().found() else { return None };
-    let offered =
-        [(Choice::Resume, words.resume), (Choice::RepeatRound, words.repeat_round), (Choice::Discard, words.discard)];
+    let offered = [
+        (ResumePolicy::Continue, words.resume),
+        (ResumePolicy::RepeatRound, words.repeat_round),
+        (ResumePolicy::Discard, words.discard),
+    ];
     let chosen = widgets::named(ui, words.interrupted, |ui| {
         ui.horizontal(|ui| {
-            let button = |(choice, name)| ui.button(name).clicked().then_some(choice);
+            let button = |(policy, name)| ui.button(name).clicked().then_some(policy);
             offered.into_iter().filter_map(button).last()
         })
         .inner
     });
-    chosen.map(|choice| SetupAction::Interrupted(session.directory.clone(), choice))
+    chosen.map(|policy| SetupAction::Interrupted(session.directory.clone(), policy))
 }
