@@ -7,7 +7,6 @@ use scumble_psychophysics::Protocol;
 
 use crate::{
     Error,
-    assumptions::{Assumptions, DETECTION_AT_THRESHOLD},
     estimate::MeanOverPeople,
     people::Study,
     population::Population,
@@ -23,7 +22,7 @@ pub const SOFTWARE: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_
 pub struct Analysis {
     /// Every person's thresholds, in the order of people and conditions.
     pub thresholds: Vec<ConditionThreshold>,
-    /// Every pattern, contrast and kernel with thresholds of at least two people.
+    /// Every pattern, contrast and kernel that at least two people's answers bound.
     pub series: Vec<Series>,
     /// Index of the worst series: the largest ratio under the protocol's first kernel. It is the
     /// renderer's number, which holds for one kernel.
@@ -64,19 +63,12 @@ impl Analysis {
         }
         let no_series = || Error::CannotFit("the protocol has no round".to_owned());
         let of_kernel = |index: &usize| Some(&series[*index].round.kernel) == protocol.conditions.kernels.first();
-        let larger = |a: &usize, b: &usize| series[*a].log10_ratio.mean.total_cmp(&series[*b].log10_ratio.mean);
+        let larger = |a: &usize, b: &usize| series[*a].log10_ratio.value.total_cmp(&series[*b].log10_ratio.value);
         let Some(worst) = (0..series.len()).filter(of_kernel).max_by(larger) else {
             return Err(refusal.unwrap_or_else(no_series));
         };
 
-        let known = Assumptions::of_protocol(protocol);
-        let population = Population {
-            thresholds: series[worst].log10_ratio,
-            measurement_variance: series[worst].measurement_variance(),
-            detection_at_threshold: DETECTION_AT_THRESHOLD,
-            slope: known.slope,
-            blind_share: known.blind_share,
-        };
+        let population = Population::of(&series[worst].fit)?;
         Ok(Self { thresholds, series, worst, population, exclusions })
     }
 
@@ -96,7 +88,7 @@ impl Analysis {
             ratio: ratio_of(worst),
             population: self
                 .population
-                .curve()?
+                .curve
                 .iter()
                 .map(|point| FilePoint {
                     viewers: point.viewers,

@@ -98,8 +98,9 @@ fn draw_panel(panel: &Area<'_, '_>, series: &[&Series], (right_px, top_px): (f64
         chart.draw_series([Polygon::new(band, color.mix(0.13))])?;
         let line = |slope: f64| [(0.0, 0.0), (end_px, slope * end_px)];
         chart.draw_series(LineSeries::new(line(series.ratio()), color.stroke_width(2)))?;
-        let dashes = line(series.origin_line.slope);
-        chart.draw_series(DashedLineSeries::new(dashes, 6, 5, color.stroke_width(1)))?;
+        if let Some(published) = series.origin_line {
+            chart.draw_series(DashedLineSeries::new(line(published.slope), 6, 5, color.stroke_width(1)))?;
+        }
 
         // People, side by side; then their geometric mean with its interval. The patterns stand left
         // and right of their texel size.
@@ -126,7 +127,7 @@ fn draw_panel(panel: &Area<'_, '_>, series: &[&Series], (right_px, top_px): (f64
             chart.draw_series([Circle::new((x, mean), 5, color.stroke_width(2))])?;
         }
         let label = format!("{} {:.2}", pattern_name(series.round.pattern), series.ratio());
-        let published = format!("line {:.2}", series.origin_line.slope);
+        let published = series.origin_line.map_or(String::new(), |line| format!("line {:.2}", line.slope));
         let place = chart.backend_coord(&(end_px * 1.01, series.ratio() * end_px));
         let root = panel.strip_coord_spec();
         let base = root.get_base_pixel();

@@ -70,6 +70,7 @@ mod fit_figure;
 mod fit_outputs;
 mod load;
 mod maximum_likelihood;
+mod mixed_model;
 mod outputs;
 mod people;
 mod plan;
@@ -100,10 +101,14 @@ pub use load::{LoadedSession, session_directories};
 pub use maximum_likelihood::{
     Count, Fitted, LAPSE_LARGEST, LIKELIHOOD_DROP_95, Model, Parameter, SLOPE_RANGE, fit, log_likelihood,
 };
+pub use mixed_model::{
+    BLIND_PRIOR_SD_LOGIT, Interval, MixedFit, MixedModel, MixedParameters, PersonAnswers, Profiled, Quantity,
+    SLOPE_PRIOR_SD_LN,
+};
 pub use outputs::{Output, write_outputs};
 pub use people::{Person, Run, Study, Track};
 pub use plan::{Accuracy, COHORTS, IntervalForecast, Plan, SeriesForecast, Spread, Staircases};
-pub use population::{DETECTIONS, Population, PopulationPoint, SLOPE_CI95, VIEWERS};
+pub use population::{DETECTIONS, Population, PopulationPoint, VIEWERS};
 pub use quest_table::{TableAnswer, read_quest_config, read_responses, write_summaries};
 pub use reach::check_reach;
 pub use replay::{Replayed, hashed_pictures, replay_session};

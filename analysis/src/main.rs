@@ -285,12 +285,9 @@ fn fit(sessions: &[PathBuf], out: &Path) -> anyhow::Result<()> {
     for (index, series) in analysis.series.iter().enumerate() {
         let [low, high] = series.ratio_ci95();
         let mark = if index == analysis.worst { "  <- relation.json" } else { "" };
-        println!(
-            "{:<22} {:.2} texels, 95 % {low:.2} to {high:.2}; line through the origin {:.2}{mark}",
-            series.name,
-            series.ratio(),
-            series.origin_line.slope,
-        );
+        let line =
+            series.origin_line.map_or(String::new(), |line| format!("; line through the origin {:.2}", line.slope));
+        println!("{:<22} {:.2} texels, 95 % {low:.2} to {high:.2}{line}{mark}", series.name, series.ratio());
     }
     println!("wrote      {}", out.join("report.html").display());
     Ok(())

@@ -4,10 +4,8 @@
 //!
 //! * Error of a threshold: fitted less true log10 ratio of the same person. Its mean is the bias, its
 //!   standard deviation the precision, with the person's spread left out.
-//! * Interval of c: cohorts are drawn from the pool of simulated people, each pool order one partition
-//!   into cohorts of `n`. Coverage is the share of cohorts whose 95 % interval holds the true median.
-//!   Its standard error is that of the cohorts of one partition, which share nobody; more orders only
-//!   make it smaller.
+//! * Interval of c: the simulated people are cut into cohorts of `n`, each fitted as a study is. Coverage is the share of
+//!   cohorts whose 95 % interval holds the true median.
 //! * Time: trials, practice included, times an assumed duration; rests are not in it.
 //!
 //! A study is refused where fewer than half of the staircases converge: its people sit there for nothing.
@@ -21,10 +19,10 @@ use serde::Serialize;
 use crate::{
     Error,
     assumptions::Assumptions,
-    estimate::MeanOverPeople,
+    mixed_model::{Interval, MixedModel, PersonAnswers, Quantity},
     people::{Person, Track},
     reach::check_reach,
-    series::{round_of, series_name},
+    series::{answers_of, round_of, series_name},
     simulation::Simulation,
     thresholds::{joint_threshold, thresholds_of},
 };
@@ -32,11 +30,8 @@ use crate::{
 /// Numbers of people for which the interval of c is foretold.
 pub const COHORTS: [usize; 3] = [10, 20, 40];
 
-/// Fewest cohorts without a common person from which a coverage is told.
+/// Fewest cohorts from which a coverage is told.
 const COHORTS_FEWEST: usize = 10;
-
-/// Pool orders, each of which is cut into cohorts.
-const ORDERS: usize = 20;
 
 /// The forecast.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -133,7 +128,7 @@ pub struct IntervalForecast {
     pub bias_log10: f64,
     /// Share of intervals that hold the truth; `None` where the pool is too small to tell.
     pub coverage: Option<f64>,
-    /// Standard error of the coverage, at most.
+    /// Standard error of the coverage.
     pub coverage_standard_error: Option<f64>,
 }
 
@@ -143,8 +138,10 @@ struct Outcome {
     staircases: Staircases,
     /// Errors of thresholds, log10: one a condition.
     thresholds: Vec<Option<f64>>,
-    /// Fitted log10 ratio and its error: one a round.
-    ratios: Vec<Option<(f64, f64)>>,
+    /// Errors of the person's ratio from all texel sizes, log10: one a round.
+    ratios: Vec<Option<f64>>,
+    /// The answers in the worst round.
+    answers: Option<PersonAnswers>,
 }
 
 impl Plan {
@@ -162,22 +159,18 @@ impl Plan {
         let protocol = &simulation.protocol;
         let truths = conditions_with_truth(simulation)?;
         check_reach(protocol, &truths, simulation.between_sd_log10)?;
+        let worst = worst_round(protocol, &truths)?;
         let outcomes: Vec<Outcome> = (0..simulation.observers)
             .into_par_iter()
             .map(|index| {
-                let outcome = outcome(simulation, index, &truths);
+                let outcome = outcome(simulation, index, &truths, worst);
                 finished();
                 outcome
             })
             .collect::<Result<_, Error>>()?;
 
         let series = series_forecasts(protocol, &truths, &outcomes);
-        let rounds = protocol.rounds();
-        let of_kernel = |index: &usize| rounds[*index].kernel == protocol.conditions.kernels[0];
-        let larger = |a: &usize, b: &usize| series[*a].ratio.total_cmp(&series[*b].ratio);
-        let Some(worst) = (0..series.len()).filter(of_kernel).max_by(larger) else {
-            return Err(Error::CannotPlan("the protocol has no round".to_owned()));
-        };
+        let worst = protocol.rounds().iter().position(|round| *round == worst).unwrap_or_default();
         let staircases = outcomes.iter().fold(Staircases::default(), |sum, outcome| sum.plus(outcome.staircases));
         check_staircases(protocol, &staircases)?;
         let trials: Vec<f64> = outcomes.iter().map(|outcome| outcome.trials as f64).collect();
@@ -191,7 +184,7 @@ impl Plan {
             staircases,
             worst: series[worst].name.clone(),
             worst_ratio: series[worst].ratio,
-            intervals: interval_forecasts(&outcomes, worst, series[worst].ratio),
+            intervals: interval_forecasts(protocol, outcomes, series[worst].ratio),
             series,
         })
     }
@@ -203,7 +196,16 @@ fn conditions_with_truth(simulation: &Simulation) -> Result<Vec<(Condition, f64)
     conditions.map(|condition| Ok((condition, simulation.true_log10(&condition)?))).collect()
 }
 
-fn outcome(simulation: &Simulation, index: u32, truths: &[(Condition, f64)]) -> Result<Outcome, Error> {
+/// The round with the largest expected threshold under the first kernel.
+fn worst_round(protocol: &Protocol, truths: &[(Condition, f64)]) -> Result<Round, Error> {
+    let of_kernel =
+        truths.iter().filter(|(condition, _)| Some(&condition.kernel) == protocol.conditions.kernels.first());
+    let worst = of_kernel.max_by(|(_, a), (_, b)| a.total_cmp(b));
+    let no_round = || Error::CannotPlan("the protocol has no round".to_owned());
+    worst.map(|(condition, _)| round_of(condition)).ok_or_else(no_round)
+}
+
+fn outcome(simulation: &Simulation, index: u32, truths: &[(Condition, f64)], worst: Round) -> Result<Outcome, Error> {
     let (experiment, events) = simulation.run(index)?;
     let person = Person::of("", &experiment, &events);
     let deviation = simulation.person_deviation_log10(index)?;
@@ -217,13 +219,14 @@ fn outcome(simulation: &Simulation, index: u32, truths: &[(Condition, f64)]) -> 
         let here = person.tracks.iter().filter(|track| round_of(&track.condition) == round);
         let fitted = joint_threshold(here, &known).ok()?.log10_ratio;
         let (_, truth) = truths.iter().find(|(condition, _)| round_of(condition) == round)?;
-        Some((fitted, fitted - truth - deviation))
+        Some(fitted - truth - deviation)
     };
     Ok(Outcome {
         trials: events.iter().filter(|event| event.answered().is_some()).count(),
         staircases: person.tracks.iter().map(Staircases::of).fold(Staircases::default(), Staircases::plus),
         thresholds,
         ratios: simulation.protocol.rounds().into_iter().map(ratio_of).collect(),
+        answers: answers_of(worst, &person, &simulation.protocol),
     })
 }
 
@@ -231,7 +234,7 @@ fn series_forecasts(protocol: &Protocol, truths: &[(Condition, f64)], outcomes: 
     let forecast = |(index, round): (usize, Round)| {
         let here: Vec<usize> = (0..truths.len()).filter(|&i| round_of(&truths[i].0) == round).collect();
         let errors = outcomes.iter().flat_map(|outcome| here.iter().map(|&condition| outcome.thresholds[condition]));
-        let ratios = outcomes.iter().map(|outcome| outcome.ratios[index].map(|(_, error)| error));
+        let ratios = outcomes.iter().map(|outcome| outcome.ratios[index]);
         SeriesForecast {
             name: series_name(round, protocol),
             ratio: here.first().map_or(f64::NAN, |&first| 10_f64.powf(truths[first].1)),
@@ -261,48 +264,39 @@ fn check_staircases(protocol: &Protocol, staircases: &Staircases) -> Result<(), 
     )))
 }
 
-fn interval_forecasts(outcomes: &[Outcome], worst: usize, truth: f64) -> Vec<IntervalForecast> {
-    let pool: Vec<f64> =
-        outcomes.iter().filter_map(|outcome| outcome.ratios[worst]).map(|(fitted, _)| fitted).collect();
-    COHORTS.iter().filter_map(|&people| interval_forecast(&pool, people, truth.log10())).collect()
+fn interval_forecasts(protocol: &Protocol, outcomes: Vec<Outcome>, truth: f64) -> Vec<IntervalForecast> {
+    let pool: Vec<PersonAnswers> = outcomes.into_iter().filter_map(|outcome| outcome.answers).collect();
+    let known = Assumptions::of_protocol(protocol);
+    let fitted = |cohort: &[PersonAnswers]| {
+        let fit = MixedModel::new(cohort.to_vec(), known).fit()?;
+        Interval::of(&fit, Quantity::MEDIAN)
+    };
+    let forecast = |&people: &usize| {
+        let cohorts: Vec<&[PersonAnswers]> = pool.chunks_exact(people).collect();
+        let intervals: Vec<Interval> = cohorts.into_par_iter().filter_map(|cohort| fitted(cohort).ok()).collect();
+        interval_forecast(&intervals, people, truth.log10())
+    };
+    COHORTS.iter().filter_map(forecast).collect()
 }
 
-/// Intervals of cohorts of `people` from a pool of log10 ratios; `None` for a pool without two cohorts.
-fn interval_forecast(pool: &[f64], people: usize, truth_log10: f64) -> Option<IntervalForecast> {
-    let disjoint = pool.len() / people;
-    if disjoint < 2 {
+/// What the intervals of cohorts of `people` have in common; `None` below two.
+fn interval_forecast(cohorts: &[Interval], people: usize, truth_log10: f64) -> Option<IntervalForecast> {
+    if cohorts.len() < 2 {
         return None;
     }
-    let means: Vec<MeanOverPeople> = strides(pool.len())
-        .flat_map(|stride| {
-            let order: Vec<f64> = (0..disjoint * people).map(|place| pool[place * stride % pool.len()]).collect();
-            order.chunks(people).filter_map(|cohort| MeanOverPeople::of(cohort).ok()).collect::<Vec<_>>()
-        })
-        .collect();
-    let over_cohorts = |value: fn(&MeanOverPeople) -> f64| median(means.iter().map(value).collect());
-    let count = means.len() as f64;
-    let covered = means.iter().filter(|mean| mean.ci95[0] <= truth_log10 && truth_log10 <= mean.ci95[1]).count();
-    let coverage = (disjoint >= COHORTS_FEWEST).then(|| covered as f64 / count);
+    let over_cohorts = |value: fn(&Interval) -> f64| median(cohorts.iter().map(value).collect());
+    let count = cohorts.len() as f64;
+    let covers = |interval: &&Interval| interval.ci95[0] <= truth_log10 && truth_log10 <= interval.ci95[1];
+    let coverage = (cohorts.len() >= COHORTS_FEWEST).then(|| cohorts.iter().filter(covers).count() as f64 / count);
     Some(IntervalForecast {
         people,
-        median_low: over_cohorts(|mean| 10_f64.powf(mean.ci95[0])),
-        median_high: over_cohorts(|mean| 10_f64.powf(mean.ci95[1])),
-        median_width: over_cohorts(|mean| 10_f64.powf(mean.ci95[1]) - 10_f64.powf(mean.ci95[0])),
-        bias_log10: means.iter().map(|mean| mean.mean - truth_log10).sum::<f64>() / count,
+        median_low: over_cohorts(|interval| 10_f64.powf(interval.ci95[0])),
+        median_high: over_cohorts(|interval| 10_f64.powf(interval.ci95[1])),
+        median_width: over_cohorts(|interval| 10_f64.powf(interval.ci95[1]) - 10_f64.powf(interval.ci95[0])),
+        bias_log10: cohorts.iter().map(|interval| interval.value - truth_log10).sum::<f64>() / count,
         coverage,
-        coverage_standard_error: coverage.map(|share| (share * (1.0 - share) / disjoint as f64).sqrt()),
+        coverage_standard_error: coverage.map(|share| (share * (1.0 - share) / count).sqrt()),
     })
-}
-
-/// Steps that visit each of `count` places once: numbers without a common divisor with it.
-fn strides(count: usize) -> impl Iterator<Item = usize> {
-    let divisor = |mut a: usize, mut b: usize| {
-        while b != 0 {
-            (a, b) = (b, a % b);
-        }
-        a
-    };
-    (1..).filter(move |&stride| divisor(count, stride) == 1).take(ORDERS)
 }
 
 impl Staircases {
@@ -360,39 +354,16 @@ fn median(mut values: Vec<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scumble_psychophysics::ObserverModel;
-
-    /// log10 ratios of people, measured without error: normal with mean log10 3.47 and SD 0.1.
-    fn pool(people: u32) -> Vec<f64> {
-        let (protocol, median) = (Protocol::two_alternative(), ObserverModel::default());
-        let simulation = Simulation { protocol, observers: people, seed: 4, median, between_sd_log10: 0.1 };
-        (0..people).map(|index| 3.47_f64.log10() + simulation.person_deviation_log10(index).unwrap()).collect()
-    }
 
     #[test]
-    fn intervals_of_normal_numbers_hold_their_mean_in_95_percent_and_a_shifted_one_rarely() {
-        let pool = pool(4000);
-        for people in COHORTS {
-            let forecast = interval_forecast(&pool, people, 3.47_f64.log10()).unwrap();
-            let (coverage, error) = (forecast.coverage.unwrap(), forecast.coverage_standard_error.unwrap());
-            assert!((coverage - 0.95).abs() < 3.0 * error, "{forecast:?}");
-            assert!(interval_forecast(&pool, people, 3.47_f64.log10() + 0.1).unwrap().coverage.unwrap() < 0.3);
-        }
-        // Student's t(0.975, 9) x 0.1 / sqrt 10 = 0.0715 log10 to either side; the median SD is 0.963 of 0.1.
-        let ten = interval_forecast(&pool, 10, 3.47_f64.log10()).unwrap();
-        let expected = 3.47 * (10_f64.powf(0.0689) - 10_f64.powf(-0.0689));
-        assert!((ten.median_width / expected - 1.0).abs() < 0.05, "{ten:?} is not {expected}");
-    }
-
-    #[test]
-    fn every_order_visits_everyone_once() {
-        for count in [24, 97, 100] {
-            for stride in strides(count) {
-                let mut places: Vec<usize> = (0..count).map(|place| place * stride % count).collect();
-                places.sort_unstable();
-                assert_eq!(places, (0..count).collect::<Vec<_>>(), "stride {stride}");
-            }
-        }
+    fn a_coverage_is_the_share_of_intervals_that_hold_the_truth() {
+        let of = |low: f64| Interval { value: low + 0.1, ci95: [low, low + 0.2], standard_error: 0.05 };
+        let cohorts: Vec<Interval> = (0..20).map(|index| of(0.01 * f64::from(index))).collect();
+        let forecast = interval_forecast(&cohorts, 10, 0.095).unwrap();
+        assert_eq!(forecast.coverage, Some(0.5), "ten begin below the truth, and all end above it");
+        assert!((forecast.bias_log10 - (0.095 + 0.1 - 0.095)).abs() < 1e-12);
+        assert_eq!(interval_forecast(&cohorts[..9], 10, 0.095).unwrap().coverage, None, "nine are too few to tell");
+        assert_eq!(interval_forecast(&cohorts[..1], 10, 0.095), None);
     }
 
     #[test]

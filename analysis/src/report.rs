@@ -11,8 +11,9 @@ use crate::{
     assumptions::{Assumptions, DETECTION_AT_THRESHOLD},
     checks::Checks,
     estimate::MeanOverPeople,
+    mixed_model::{MixedParameters, Profiled, SLOPE_PRIOR_SD_LN},
     people::{Study, Track},
-    population::{DETECTIONS, SLOPE_CI95, VIEWERS},
+    population::{DETECTIONS, VIEWERS},
     series::Series,
 };
 
@@ -34,7 +35,7 @@ pub fn report_html(study: &Study, analysis: &Analysis, fit: &str, staircases: &s
     page += &format!("<h2>Thresholds and the two lines</h2>\n{fit}\n");
     page += &conditions(analysis);
     page += &form(analysis.worst());
-    page += &population(analysis)?;
+    page += &population(analysis);
     page += &people(analysis);
     page += &detection(study);
     page += &format!("<h2>One person's tracks</h2>\n{staircases}\n");
@@ -66,7 +67,7 @@ fn result(study: &Study, analysis: &Analysis) -> String {
         worst.ratio(),
         worst.name,
         threshold_in_words(),
-        worst.log10_ratio.people,
+        worst.fit.people(),
         study.people.len(),
         study.trial_count(),
     )
@@ -84,31 +85,39 @@ fn conditions(analysis: &Analysis) -> String {
     let mut rows = String::new();
     for (index, series) in analysis.series.iter().enumerate() {
         let class = if index == analysis.worst { " class=\"worst\"" } else { "" };
-        let line = &series.origin_line;
-        let line_interval = line
-            .over_people
-            .map_or("a person lacks a size".to_owned(), |mean| format!("{:.2} to {:.2}", mean.ci95[0], mean.ci95[1]));
         let [low, high] = series.ratio_ci95();
+        let interval = |ends: [f64; 2]| format!("{:.2} to {:.2}", ends[0], ends[1]);
+        let (log_mean, log_mean_ends) = series.log_mean.map_or((none(), none()), |mean| {
+            (format!("{:.2}", 10_f64.powf(mean.mean)), interval(mean.ci95.map(|limit| 10_f64.powf(limit))))
+        });
+        let (line, line_ends) = series.origin_line.map_or((none(), none()), |line| {
+            let ends = line.over_people.map_or("a person lacks a size".to_owned(), |mean| interval(mean.ci95));
+            (format!("{:.2}", line.slope), ends)
+        });
+        let MixedParameters { between_sd, slope, .. } = series.fit.parameters();
         _ = writeln!(
             rows,
-            "<tr{class}><td>{}</td><td>{}</td><td>{:.2}</td><td>{low:.2} to {high:.2}</td>\
-             <td>{:.2}</td><td>{line_interval}</td><td>{:.3}</td></tr>",
+            "<tr{class}><td>{}</td><td>{}</td><td>{:.2}</td><td>{low:.2} to {high:.2}</td><td>{log_mean}</td>\
+             <td>{log_mean_ends}</td><td>{line}</td><td>{line_ends}</td><td>{between_sd:.3}</td><td>{slope:.1}</td></tr>",
             series.name,
-            series.log10_ratio.people,
+            series.fit.people(),
             series.ratio(),
-            line.slope,
-            series.log10_ratio.standard_deviation,
         );
     }
     format!(
-        "<div class=\"wide\"><table>\n<tr><th>condition</th><th>people</th><th>ratio \
-         (ours)</th><th>95 %</th><th>line through 0</th><th>95 %</th><th>SD of people, \
-         log10</th></tr>\n{rows}</table></div>\n<p class=\"note\">Ours is the median person. The \
-         published estimator (Kreuzer 2017, Eq. 5.1) is the line through the origin of the mean \
-         radii; its target is the mean person, and it inherits the bias of thresholds from few \
-         trials, so it lies higher. The worst condition is chosen after seeing the data, which \
-         overstates it slightly when two conditions are close.</p>\n"
+        "<div class=\"wide\"><table>\n<tr><th>condition</th><th>people</th><th>ratio</th><th>95 %</th>\
+         <th>mean of logarithms</th><th>95 %</th><th>line through 0</th><th>95 %</th><th>SD of people, log10</th>\
+         <th>slope per decade</th></tr>\n{rows}</table></div>\n<p class=\"note\">The ratio is the median person's in a \
+         mixed model of every answer; ratio, spread and slope are estimated together. Mean of logarithms: over \
+         thresholds fitted to one person at a time. Line: the published estimator (Kreuzer 2017, Eq. 5.1), through \
+         the origin of the mean radii; its target is the mean person, and it inherits the bias of thresholds from few \
+         trials, so it lies higher. The worst condition is chosen after seeing the data, which overstates it slightly \
+         when two conditions are close.</p>\n"
     )
+}
+
+fn none() -> String {
+    "none".to_owned()
 }
 
 fn form(worst: &Series) -> String {
@@ -132,13 +141,12 @@ fn form(worst: &Series) -> String {
     )
 }
 
-fn population(analysis: &Analysis) -> Result<String, Error> {
+fn population(analysis: &Analysis) -> String {
     let population = &analysis.population;
     let mut rows = String::new();
     for viewers in VIEWERS {
         _ = write!(rows, "<tr><td>{:.0} % of viewers</td>", viewers * 100.0);
-        for detection in DETECTIONS {
-            let point = population.ratio(viewers, detection)?;
+        for point in DETECTIONS.iter().filter_map(|&detection| population.point(viewers, detection)) {
             let [low, high] = point.ci95;
             _ = write!(rows, "<td>{:.1}</td><td>{low:.1} to {high:.1}</td>", point.ratio);
         }
@@ -146,20 +154,25 @@ fn population(analysis: &Analysis) -> Result<String, Error> {
     }
     let header: String =
         DETECTIONS.map(|d| format!("<th>seen on at most {:.0} %</th><th>95 %</th>", d * 100.0)).concat();
-    let [low, high] = population.between_sd_ci95()?;
-    Ok(format!(
+    let between = interval_of_log10(&population.log10_between_sd, "0");
+    let slope = interval_of_log10(&population.log10_slope, "open");
+    let prior = SLOPE_PRIOR_SD_LN.exp();
+    format!(
         "<h2>Hidden from whom?</h2>\n<p>The ratio that hides the texels from a share of the viewers, \
          when they look as hard as in the study. Standard deviation between people without \
-         measurement noise: {:.3} log10 (95 % {low:.3} to {high:.3}).</p>\n<div \
+         measurement noise: {between} log10. Slope of the psychometric function: {slope} per decade.</p>\n<div \
          class=\"wide\"><table>\n<tr><th></th>{header}</tr>\n{rows}</table></div>\n<p \
-         class=\"note\">Assumes log-normal thresholds and a psychometric slope of {} per decade. The \
-         study holds the slope fixed; the intervals let it lie between {:.1} and {:.1}. Shares \
-         beyond 95 % lean on the normal distribution, not on data.</p>\n",
-        population.between_sd(),
-        population.slope,
-        population.slope * SLOPE_CI95[0],
-        population.slope * SLOPE_CI95[1],
-    ))
+         class=\"note\">Assumes log-normal thresholds; shares beyond 95 % lean on the normal distribution, not on data. The \
+         slope is estimated, with the protocol's as a weak prior (a factor of {prior:.0} is one standard deviation): \
+         staircases hardly measure it, and rare detection leans on it.</p>\n"
+    )
+}
+
+/// A quantity that was estimated as a logarithm, with its interval; `lowest` stands for a lower end that is not there.
+fn interval_of_log10(profiled: &Profiled, lowest: &str) -> String {
+    let end = |end: Option<f64>, none: &str| end.map_or(none.to_owned(), |log10| format!("{:.3}", 10_f64.powf(log10)));
+    let [low, high] = profiled.ends;
+    format!("{:.3} (95 % {} to {})", 10_f64.powf(profiled.value), end(low, lowest), end(high, "open"))
 }
 
 fn people(analysis: &Analysis) -> String {
@@ -278,9 +291,10 @@ fn method(study: &Study, analysis: &Analysis) -> String {
          Threshold: {}. {converged} of {staircases} staircases converged by the experiment's rule; the \
          others enter too, because leaving them out would select answers.</li>\n<li>Per person and \
          condition: maximum-likelihood Weibull function, its location alone free. A threshold that the \
-         answers do not bound on both sides (95 % likelihood ratio) is refused.</li>\n<li>Per person, \
-         pattern, contrast and kernel: one ratio from the answers at all texel sizes. Over people: mean of \
-         its logarithm with Student's t interval.</li>\n<li>Lines alone, catch trials and practice are \
+         answers do not bound on both sides (95 % likelihood ratio) is refused.</li>\n<li>Per \
+         pattern, contrast and kernel: one mixed model of all answers at all texel sizes, thresholds log-normal over \
+         people, Weibull function with a shared slope and share of blind trials; intervals are profile likelihoods, cut where \
+         Student's t with people - 1 degrees of freedom is.</li>\n<li>Lines alone, catch trials and practice are \
          in no threshold.</li>{single_pictures}\n<li>Intervals do not cover a wrong slope, learning, or viewers unlike \
          these.</li>\n</ul>\n",
         escaped(&protocol.name),

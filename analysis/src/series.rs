@@ -1,9 +1,12 @@
 //! A pattern at a contrast under a kernel, over all people and texel sizes: both estimators of the ratio and the
 //! tests of the relation's form.
 //!
-//! *Ours*: per person one ratio, by maximum likelihood from the answers at all texel sizes
+//! *Ours*: the median person's ratio of the [mixed model](MixedModel), from every answer of everyone at all texel
+//! sizes, catch trials too.
+//!
+//! *Mean of logarithms*: per person one ratio, by maximum likelihood from the answers at all texel sizes
 //! ([`joint_threshold`]), then the mean of its logarithm over people with Student's t interval
-//! ([`MeanOverPeople`]). People weigh equally.
+//! ([`MeanOverPeople`]). People weigh equally; those without a threshold are not in it.
 //!
 //! *Published* (Kreuzer 2017, Eq. 5.1): the line through the origin of the mean radii over the texel
 //! sizes; arithmetic means, large texels weigh most. For log-normal people its target is the mean
@@ -18,7 +21,9 @@ use scumble_stimuli::{Kernel, Pattern};
 use crate::{
     Error,
     assumptions::Assumptions,
+    checks::Checks,
     estimate::{MeanOverPeople, SizePoint, exponent, intercept_px, line_through_origin},
+    mixed_model::{Interval, MixedFit, MixedModel, PersonAnswers, Quantity},
     people::{Person, Track},
     thresholds::{joint_threshold, thresholds_of},
 };
@@ -57,10 +62,14 @@ pub struct Series {
     pub texels_px: Vec<f64>,
     /// People with at least one threshold here.
     pub people: Vec<PersonInSeries>,
-    /// Our estimator, log10 of the ratio.
-    pub log10_ratio: MeanOverPeople,
-    /// The published estimator.
-    pub origin_line: OriginLine,
+    /// The mixed model.
+    pub fit: MixedFit,
+    /// Our estimator, log10 of the median person's ratio at the threshold.
+    pub log10_ratio: Interval,
+    /// Mean of the people's own log10 ratios; `None` below two people with a threshold.
+    pub log_mean: Option<MeanOverPeople>,
+    /// The published estimator; `None` where no person has a threshold.
+    pub origin_line: Option<OriginLine>,
     /// Exponent `g` over people; `None` where fewer than two people have two sizes.
     pub exponent: Option<MeanOverPeople>,
     /// Intercept over people, pixels.
@@ -68,20 +77,20 @@ pub struct Series {
 }
 
 impl Series {
-    /// The series of a round. People whose answers do not carry a ratio are left out.
+    /// The series of a round.
     ///
     /// # Errors
-    /// Fewer than two people have a ratio here.
+    /// Fewer than two people answered here, or their answers do not bound the ratio.
     pub fn of(round: Round, people: &[Person], protocol: &Protocol) -> Result<Self, Error> {
         let mut texels_px = protocol.conditions.texels_px.clone();
         texels_px.sort_by(f64::total_cmp);
         let name = series_name(round, protocol);
-        let people: Vec<_> = people.iter().filter_map(|person| person_in_series(round, person, protocol)).collect();
-        let ratios: Vec<f64> = people.iter().map(|person| person.log10_ratio).collect();
-        let log10_ratio = MeanOverPeople::of(&ratios).map_err(|reason| match reason {
+        let (fit, log10_ratio) = fitted(round, people, protocol).map_err(|reason| match reason {
             Error::CannotFit(reason) => Error::CannotFit(format!("{name}: {reason}")),
             other => other,
         })?;
+        let people: Vec<_> = people.iter().filter_map(|person| person_in_series(round, person, protocol)).collect();
+        let ratios: Vec<f64> = people.iter().map(|person| person.log10_ratio).collect();
         let over_people = |statistic: fn(&[SizePoint]) -> Option<f64>| {
             let values: Vec<f64> = people.iter().filter_map(|p| statistic(&p.points)).collect();
             MeanOverPeople::of(&values).ok()
@@ -89,8 +98,10 @@ impl Series {
         Ok(Self {
             round,
             name,
+            fit,
             log10_ratio,
-            origin_line: origin_line(&people, &texels_px)?,
+            log_mean: MeanOverPeople::of(&ratios).ok(),
+            origin_line: origin_line(&people, &texels_px),
             exponent: over_people(exponent),
             intercept_px: over_people(intercept_px),
             texels_px,
@@ -100,7 +111,7 @@ impl Series {
 
     /// The median person's ratio at threshold, radius in texels.
     pub fn ratio(&self) -> f64 {
-        10_f64.powf(self.log10_ratio.mean)
+        10_f64.powf(self.log10_ratio.value)
     }
 
     /// Its standard error by the delta method: `c ln 10` times the error of the logarithm.
@@ -111,12 +122,6 @@ impl Series {
     /// Its 95 % interval, which is symmetric in the logarithm.
     pub fn ratio_ci95(&self) -> [f64; 2] {
         self.log10_ratio.ci95.map(|limit| 10_f64.powf(limit))
-    }
-
-    /// Mean over people of the measurement variance of a person's mean, log10 units squared.
-    pub fn measurement_variance(&self) -> f64 {
-        let sum: f64 = self.people.iter().map(|person| person.measurement_variance).sum();
-        sum / self.people.len() as f64
     }
 }
 
@@ -150,6 +155,26 @@ pub(crate) fn round_of(condition: &Condition) -> Round {
     Round { pattern: condition.pattern, contrast: condition.contrast, kernel: condition.kernel }
 }
 
+/// The mixed model of a round and its median person.
+fn fitted(round: Round, people: &[Person], protocol: &Protocol) -> Result<(MixedFit, Interval), Error> {
+    let answers: Vec<PersonAnswers> = people.iter().filter_map(|person| answers_of(round, person, protocol)).collect();
+    let fit = MixedModel::new(answers, Assumptions::of_protocol(protocol)).fit()?;
+    let median = Interval::of(&fit, Quantity::MEDIAN)?;
+    Ok((fit, median))
+}
+
+/// A person's answers in a round, with those to catch trials, which tell blind ones; `None` where there are none.
+pub(crate) fn answers_of(round: Round, person: &Person, protocol: &Protocol) -> Option<PersonAnswers> {
+    let here = || person.tracks.iter().filter(|track| round_of(&track.condition) == round).flat_map(Track::responses);
+    here().next()?;
+    let guess = Assumptions::of_person(person, protocol).guess;
+    let catches = protocol.catch_trials.iter().flat_map(|rules| {
+        let Checks { catches, catches_seen, .. } = person.checks;
+        (0..catches).map(move |trial| (-rules.ratio.log10(), trial < catches_seen))
+    });
+    Some(PersonAnswers::new(guess, here().chain(catches)))
+}
+
 fn person_in_series(round: Round, person: &Person, protocol: &Protocol) -> Option<PersonInSeries> {
     let is_here = |track: &&Track| round_of(&track.condition) == round;
     let known = Assumptions::of_person(person, protocol);
@@ -171,7 +196,7 @@ fn person_in_series(round: Round, person: &Person, protocol: &Protocol) -> Optio
     })
 }
 
-fn origin_line(people: &[PersonInSeries], texels_px: &[f64]) -> Result<OriginLine, Error> {
+fn origin_line(people: &[PersonInSeries], texels_px: &[f64]) -> Option<OriginLine> {
     let mean_points: Vec<SizePoint> = texels_px
         .iter()
         .filter_map(|&texel_px| {
@@ -185,10 +210,9 @@ fn origin_line(people: &[PersonInSeries], texels_px: &[f64]) -> Result<OriginLin
             (!radii.is_empty()).then_some(SizePoint { texel_px, radius_px: mean })
         })
         .collect();
-    let no_line = || Error::CannotFit("no texel size has a radius".to_owned());
-    let slope = line_through_origin(&mean_points).ok_or_else(no_line)?;
+    let slope = line_through_origin(&mean_points)?;
     let complete = people.iter().all(|person| person.points.len() == texels_px.len());
     let slopes: Vec<f64> = people.iter().filter_map(|p| line_through_origin(&p.points)).collect();
     let over_people = if complete { MeanOverPeople::of(&slopes).ok() } else { None };
-    Ok(OriginLine { slope, over_people })
+    Some(OriginLine { slope, over_people })
 }
