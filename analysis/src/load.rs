@@ -5,6 +5,7 @@
 
 use std::{
     collections::BTreeMap,
+    io::ErrorKind,
     path::{Path, PathBuf},
 };
 
@@ -96,7 +97,8 @@ fn load(directory: &Path) -> Result<(LoadedSession, Experiment), Error> {
     Ok((LoadedSession { session, sha256 }, experiment))
 }
 
-/// SHA-256 of `session.json` followed by `events.jsonl`, hexadecimal.
+/// SHA-256 of `session.json` followed by `events.jsonl`, hexadecimal; a session that ended before its first answer
+/// may have no file of events.
 ///
 /// # Errors
 /// The system's refusal to read them.
@@ -104,7 +106,11 @@ pub(crate) fn record_sha256(directory: &Path) -> Result<String, Error> {
     let mut hash = Sha256::new();
     for name in [HEADER_FILE, EVENTS_FILE] {
         let path = directory.join(name);
-        hash.update(std::fs::read(&path).map_err(Error::io(&path))?);
+        match std::fs::read(&path) {
+            Ok(bytes) => hash.update(bytes),
+            Err(error) if name == EVENTS_FILE && error.kind() == ErrorKind::NotFound => {}
+            Err(error) => return Err(Error::io(&path)(error)),
+        }
     }
     Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }

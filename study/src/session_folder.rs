@@ -1,5 +1,6 @@
 //! Where a participant's session goes: `DIR/CODE`, and `DIR/CODE.2` and so on behind sessions that were
-//! discarded or ended early. A session that is complete or can be continued is never passed over.
+//! discarded, ended early, or cut off before they had a header. A session that is complete or can be continued
+//! is never passed over.
 
 use std::path::{Path, PathBuf};
 
@@ -40,7 +41,13 @@ pub(crate) fn find(study: &Path, code: &str) -> Result<Found, Error> {
         return Ok(Found::Free(folder(1)));
     };
     let directory = folder(last);
-    let session = read_session(&directory)?;
+    let session = match read_session(&directory) {
+        Err(error @ Error::NeverBegan { .. }) => {
+            eprintln!("scumble-study: {error}; it is left as it is");
+            return Ok(Found::Free(folder(last + 1)));
+        }
+        read => read?,
+    };
     if session.is_complete() {
         return Ok(Found::Complete(directory));
     }
@@ -103,5 +110,26 @@ mod tests {
         assert!(discard(&third).is_err(), "it is being written");
         sitting.stop();
         assert_eq!(find(&study, "p08").unwrap(), Found::Free(study.join("p08")));
+    }
+
+    #[test]
+    fn a_crash_before_the_first_answer_leaves_a_session_that_goes_on_or_a_header_that_is_passed_over() {
+        let root = tempfile::tempdir().unwrap();
+        let (directory, sitting) = begin(root.path());
+        drop(sitting);
+        std::fs::remove_file(directory.join(EVENTS_FILE)).unwrap();
+        let Found::Interrupted(found) = find(root.path(), "p07").unwrap() else { panic!("it can be continued") };
+        assert_eq!(found.trials, 0);
+
+        let header = directory.join(HEADER_FILE);
+        let whole = std::fs::read(&header).unwrap();
+        for bytes in [0, 1, whole.len() / 2, whole.len() - 3] {
+            std::fs::write(&header, &whole[..bytes]).unwrap();
+            assert_eq!(find(root.path(), "p07").unwrap(), Found::Free(root.path().join("p07.2")), "{bytes} bytes");
+            assert_eq!(std::fs::read(&header).unwrap(), &whole[..bytes]);
+        }
+        // Beside events it is damage, and nothing that may be passed over.
+        std::fs::write(directory.join(EVENTS_FILE), "").unwrap();
+        assert!(find(root.path(), "p07").is_err());
     }
 }

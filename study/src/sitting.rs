@@ -10,7 +10,7 @@ use jiff::Timestamp;
 use scumble_psychophysics::{Display, Event, Experiment, Moment, Reply, SessionHeader, Stage};
 
 use crate::arguments::ResumePolicy;
-use crate::clock::Clock;
+use crate::clock::{Clock, Mark};
 use crate::recorder::Recorder;
 use crate::setup::StudyFolder;
 
@@ -24,7 +24,7 @@ pub(crate) struct Sitting {
 
 /// An interruption that has not ended.
 struct Pause {
-    began_at: Instant,
+    began: Mark,
     /// How long it had lasted before the program was started.
     earlier_secs: f64,
     /// What belongs into the record where the session goes on.
@@ -52,7 +52,7 @@ impl Sitting {
             notes.push(format!("the clock stands at {now}, before the end of the record at {last_at}"));
         }
         let repeats_round = policy == ResumePolicy::RepeatRound;
-        let pause = Some(Pause { began_at: Instant::now(), earlier_secs, notes, repeats_round });
+        let pause = Some(Pause { began: Mark::now(), earlier_secs, notes, repeats_round });
         Ok(Self { experiment, recorder, clock, pause })
     }
 
@@ -112,15 +112,14 @@ impl Sitting {
     pub(crate) fn pause(&mut self) {
         if self.is_open() && self.pause.is_none() {
             self.recorder.append(Event::Pause(moment(Vec::new())));
-            let (began_at, notes) = (Instant::now(), Vec::new());
-            self.pause = Some(Pause { began_at, earlier_secs: 0.0, notes, repeats_round: false });
+            self.pause = Some(Pause { began: Mark::now(), earlier_secs: 0.0, notes: Vec::new(), repeats_round: false });
         }
     }
 
     /// Goes on after a pause.
     pub(crate) fn go_on(&mut self) {
         if let Some(pause) = self.pause.take() {
-            let interrupted_secs = Some(pause.earlier_secs + pause.began_at.elapsed().as_secs_f64());
+            let interrupted_secs = Some(pause.earlier_secs + self.clock.end_pause(pause.began, Mark::now()));
             let mut notes = pause.notes;
             // A round without an answer is as good as repeated; the record says so, or why else it was not.
             if pause.repeats_round

@@ -100,7 +100,8 @@ fn fill_session(folder: &Folder, session: &ExportedSession) -> Result<(), Error>
 
     let source = Path::new("sourcedata").join(session.name());
     let recorded = &session.session().directory;
-    for name in [HEADER_FILE, EVENTS_FILE] {
+    // A session that ended before its first answer may have no file of events.
+    for name in [HEADER_FILE, EVENTS_FILE].into_iter().filter(|name| recorded.join(name).exists()) {
         folder.copy(&recorded.join(name), source.join(name))?;
     }
     if record_sha256(&folder.0.join(source))? != session.loaded.sha256 {

@@ -62,6 +62,17 @@ pub enum Error {
         /// What is allowed there.
         allowed: String,
     },
+    /// A session's header that was cut off before its events had a file: nothing was ever answered.
+    #[error(
+        "{}: the header ends after {bytes} bytes and there are no events, so that nothing was ever answered and the folder can go; allowed is a whole header",
+        path.display()
+    )]
+    NeverBegan {
+        /// The header's file.
+        path: PathBuf,
+        /// Its length in bytes.
+        bytes: usize,
+    },
     /// A session that must not be overwritten.
     #[error("{} exists; allowed is a directory without a session", .0.display())]
     SessionExists(PathBuf),

@@ -1,8 +1,10 @@
 //! Reading a session back: the record is the truth, and damage is named by file and line.
 //!
 //! A last line without its line break was cut off by a crash before it was on disk: it is dropped
-//! with a notice. Anything else that is not an event in its place is an error.
+//! with a notice. A header without a file of events is a session that ended before its first answer; a header that
+//! was cut off, without events, is none that ever began, and has an error of its own. Anything else that is not an event in its place is an error.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use jiff::{SignedDuration, Timestamp};
@@ -31,9 +33,37 @@ pub struct Session {
 
 /// Reads a session and checks each event by itself and its place in the numbering;
 /// [`Session::replay`] checks it against the seed.
+///
+/// Errors: [`Error::NeverBegan`] for a header that was cut off where there are no events; what is damaged, by file
+/// and line; the system's.
 pub fn read_session(directory: &Path) -> Result<Session, Error> {
-    let events = read(&directory.join(EVENTS_FILE))?;
-    Session::parse(directory, &read(&directory.join(HEADER_FILE))?, &events)
+    let path = directory.join(EVENTS_FILE);
+    let events = match std::fs::read(&path) {
+        Ok(events) => Some(events),
+        Err(error) if error.kind() == ErrorKind::NotFound => None,
+        Err(error) => return Err(Error::io(path)(error)),
+    };
+    let header_path = directory.join(HEADER_FILE);
+    let header = read(&header_path)?;
+    if events.is_none() && is_cut_off(&header) {
+        return Err(Error::NeverBegan { path: header_path, bytes: header.len() });
+    }
+    let mut session = Session::parse(directory, &header, events.as_deref().unwrap_or_default())?;
+    if events.is_none() {
+        session.notices.push(no_events(&path));
+    }
+    Ok(session)
+}
+
+/// What a session without a file of events is told by.
+pub(crate) fn no_events(path: &Path) -> String {
+    format!("{}: there is no such file: the program ended before the first answer", path.display())
+}
+
+/// Whether these bytes are the beginning of some JSON, or the zeros that a loss of power leaves in a new file.
+fn is_cut_off(json: &[u8]) -> bool {
+    json.iter().all(|byte| *byte == 0)
+        || serde_json::from_slice::<serde::de::IgnoredAny>(json).is_err_and(|error| error.is_eof())
 }
 
 /// The bytes of a file.

@@ -3,6 +3,9 @@
 //! Each event is one line, written whole and synchronised to the disk before `append` returns, so
 //! that no answer is lost once the next picture is shown. Nothing is overwritten: `create` refuses a
 //! directory that holds a session. One program writes a session at a time (a lock on the file).
+//!
+//! The header comes first and is whole on disk before the events have a file. A program that ends in between
+//! leaves a session without answers, which goes on as any other.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
@@ -11,7 +14,7 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 use crate::event::Event;
 use crate::header::SessionHeader;
-use crate::read::{Session, read};
+use crate::read::{Session, no_events, read};
 
 /// Name of the header's file.
 pub const HEADER_FILE: &str = "session.json";
@@ -33,7 +36,7 @@ impl SessionWriter {
     /// Errors: a directory that holds a session, a header that is out of range, the system's.
     pub fn create(directory: &Path, header: &SessionHeader) -> Result<Self, Error> {
         header.check()?;
-        std::fs::create_dir_all(directory).map_err(Error::io(directory))?;
+        make_directory(directory)?;
         let header_path = directory.join(HEADER_FILE);
         let path = directory.join(EVENTS_FILE);
         if header_path.exists() || path.exists() {
@@ -54,7 +57,7 @@ impl SessionWriter {
     ///
     /// The session is replayed first, so that only a record that the seed leads to is continued. A
     /// last line that was cut off is removed from the file, so that nothing is ever glued to it;
-    /// the notice quotes it.
+    /// the notice quotes it. Events without a file get one, if there is a header.
     pub fn reopen(directory: &Path) -> Result<(Self, Session), Error> {
         Self::reopen_beginning(directory, &read(&directory.join(HEADER_FILE))?, |_| Ok(()))
     }
@@ -66,12 +69,20 @@ impl SessionWriter {
         check: impl FnOnce(&Session) -> Result<(), Error>,
     ) -> Result<(Self, Session), Error> {
         let path = directory.join(EVENTS_FILE);
-        let file = OpenOptions::new().read(true).write(true).open(&path).map_err(Error::io(&path))?;
+        let was_there = path.try_exists().map_err(Error::io(&path))?;
+        // Nothing is made beside a header that is not one.
+        SessionHeader::parse(&directory.join(HEADER_FILE), header)?;
+        let open = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
+        let file = open.map_err(Error::io(&path))?;
         let mut writer = Self::lock(directory, path, file)?;
         // Read through the locked handle: on some systems the lock keeps every other one out.
         let mut bytes = Vec::new();
         writer.file.read_to_end(&mut bytes).map_err(Error::io(&writer.path))?;
-        let session = Session::parse(directory, header, &bytes)?;
+        let mut session = Session::parse(directory, header, &bytes)?;
+        if !was_there {
+            session.notices.push(no_events(&writer.path));
+            sync_directory(directory)?;
+        }
         session.replay()?;
         check(&session)?;
         writer.length_bytes = session.whole_lines_bytes();
@@ -141,6 +152,16 @@ fn create_new(directory: &Path, path: &Path) -> Result<File, Error> {
         ErrorKind::AlreadyExists => Error::SessionExists(directory.into()),
         _ => Error::io(path)(error),
     })
+}
+
+/// Makes a session's directory where it does not exist, so that it outlives a loss of power.
+pub(crate) fn make_directory(directory: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(directory).map_err(Error::io(directory))?;
+    // The study's folder names the session and may be as new; a folder that is not to be read is not ours.
+    for above in directory.ancestors().skip(1).take(2) {
+        let _ = sync_directory(if above.as_os_str().is_empty() { Path::new(".") } else { above });
+    }
+    Ok(())
 }
 
 /// Makes the names of new files durable, where directories can be synchronised.

@@ -12,7 +12,7 @@ use crate::complaint::quoted;
 use crate::error::Error;
 use crate::event::Event;
 use crate::header::SessionHeader;
-use crate::record::{EVENTS_FILE, HEADER_FILE, SessionWriter, json_of, sync_directory};
+use crate::record::{EVENTS_FILE, HEADER_FILE, SessionWriter, json_of, make_directory, sync_directory};
 use crate::text::damaged;
 
 impl SessionWriter {
@@ -25,14 +25,10 @@ impl SessionWriter {
     /// Errors: the first line that is not this session's, whose files stay as they are; the system's.
     pub fn recover(directory: &Path, header: &SessionHeader, events: &[Event]) -> Result<Self, Error> {
         header.check()?;
-        std::fs::create_dir_all(directory).map_err(Error::io(directory))?;
+        make_directory(directory)?;
         let (header_path, path) = (directory.join(HEADER_FILE), directory.join(EVENTS_FILE));
         let json = json_of(&header_path, header)?;
         let missing = missing_of_header(&header_path, header, &json)?;
-        if !path.try_exists().map_err(Error::io(&path))? {
-            let file = OpenOptions::new().write(true).create_new(true).open(&path);
-            file.and_then(|file| file.sync_all()).map_err(Error::io(&path))?;
-        }
 
         let (mut writer, found) = Self::reopen_beginning(directory, &json, |found| {
             let differs = |(index, event): &(usize, &Event)| events.get(*index) != Some(*event);

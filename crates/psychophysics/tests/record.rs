@@ -215,3 +215,42 @@ fn a_name_in_place_of_a_participant_code_is_refused_before_anything_is_written()
     }
     assert!(!place.directory.exists());
 }
+
+#[test]
+fn a_header_without_a_file_of_events_is_a_session_without_answers_that_goes_on() {
+    let place = place();
+    drop(SessionWriter::create(&place.directory, &header(small_protocol())).unwrap());
+    let path = place.directory.join(EVENTS_FILE);
+    fs::remove_file(&path).unwrap();
+    let session = read_session(&place.directory).unwrap();
+    assert!(session.events.is_empty() && !session.is_closed());
+    assert!(session.notices[0].contains("before the first answer"), "{:?}", session.notices);
+    assert!(!path.exists(), "reading writes nothing");
+
+    let (mut writer, reopened) = SessionWriter::reopen(&place.directory).unwrap();
+    assert_eq!((&reopened.events, &reopened.notices), (&session.events, &session.notices));
+    writer.append(&Event::Resume(moment("taken up"))).unwrap();
+    drop(writer);
+    assert_eq!(read_session(&place.directory).unwrap().events.len(), 1);
+}
+
+#[test]
+fn a_header_cut_off_before_there_were_events_is_told_from_damage_and_is_left_alone() {
+    let place = place();
+    drop(SessionWriter::create(&place.directory, &header(small_protocol())).unwrap());
+    let [header, events] = [HEADER_FILE, EVENTS_FILE].map(|name| place.directory.join(name));
+    fs::remove_file(&events).unwrap();
+    let whole = fs::read(&header).unwrap();
+    let zeros = vec![0; whole.len()];
+    for cut in [&whole[..0], &whole[..1], &whole[..whole.len() / 2], &whole[..whole.len() - 2], &zeros] {
+        fs::write(&header, cut).unwrap();
+        let error = read_session(&place.directory).unwrap_err();
+        assert!(matches!(&error, Error::NeverBegan { bytes, .. } if *bytes == cut.len()), "{error}");
+        assert!(SessionWriter::reopen(&place.directory).is_err() && !events.exists());
+        assert_eq!(fs::read(&header).unwrap(), cut);
+    }
+    for damage in [&b"[]"[..], b"{\"schema\": 1}", b"{]"] {
+        fs::write(&header, damage).unwrap();
+        assert!(matches!(read_session(&place.directory), Err(Error::Damaged { .. })));
+    }
+}

@@ -80,6 +80,24 @@ fn a_session_killed_between_its_last_answer_and_its_end_is_completed() {
 }
 
 #[test]
+fn a_session_killed_between_its_header_and_its_first_event_goes_on_as_it_would_have_begun() {
+    let folder = tempfile::tempdir().unwrap();
+    let screen = Screen::start([1280, 800]);
+    let mut sitting = Sitting::start(&screen, folder.path(), short("two-alternative"), 28, &[]);
+    let (first, corners) = sitting.next().unwrap();
+    sitting.crash();
+    // The folder as it is when the events did not get a file any more.
+    std::fs::remove_file(sitting.session().join(EVENTS_FILE)).unwrap();
+    sitting.resume();
+    assert_eq!(sitting.see(&first), corners);
+    sitting.answer_left(true);
+    while sitting.next().is_some() {
+        sitting.answer_left(true);
+    }
+    sitting.finish();
+}
+
+#[test]
 fn a_window_closed_in_mid_trial_shows_the_same_trial_when_it_is_resumed() {
     let folder = tempfile::tempdir().unwrap();
     let screen = Screen::start([1280, 800]);
