@@ -298,7 +298,7 @@ fn simulate(simulation: &Simulation, out: &Path) -> anyhow::Result<()> {
     let bar = progress_bar(simulation.observers.into(), "observers")?;
     let directories = simulation.write(out, || bar.inc(1))?;
     bar.finish_and_clear();
-    println!("wrote {} sessions into {}", directories.len(), out.display());
+    println!("wrote {} into {}", count_of(directories.len()), out.display());
     Ok(())
 }
 
@@ -374,8 +374,13 @@ fn export(sessions: &[PathBuf], bids: &Path) -> anyhow::Result<()> {
     for (directory, reason) in &export.left_out {
         println!("left out  {}: {reason}", directory.display());
     }
-    println!("wrote     {} sessions into {}", export.sessions.len(), bids.display());
+    println!("wrote     {} into {}", count_of(export.sessions.len()), bids.display());
     Ok(())
+}
+
+/// A number of sessions, in words.
+fn count_of(sessions: usize) -> String {
+    if sessions == 1 { "1 session".to_owned() } else { format!("{sessions} sessions") }
 }
 
 /// A progress bar, which hides itself where nobody watches.

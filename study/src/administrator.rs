@@ -17,6 +17,8 @@ pub(crate) struct Administrator {
     bands: Bands,
     /// Whether something has happened that the panel does not show.
     has_news: bool,
+    /// Round that was over when the latest order, to repeat it, came.
+    refused_round: Option<u32>,
 }
 
 enum Place {
@@ -33,7 +35,7 @@ enum Place {
 
 impl Administrator {
     pub(crate) fn new(words: &'static DeskWords) -> Self {
-        Self { words, place: Place::Unknown, bands: Bands::default(), has_news: true }
+        Self { words, place: Place::Unknown, bands: Bands::default(), has_news: true, refused_round: None }
     }
 
     /// Keeps the window open, opens or closes the panel where somebody asked for it, and gives the orders of the
@@ -91,8 +93,20 @@ impl Administrator {
         self.has_news = true;
     }
 
-    /// Shows the session as it is, where that is news. Errors: those of [`Status::of`].
-    pub(crate) fn tell(&mut self, context: &egui::Context, sitting: &Sitting) -> anyhow::Result<()> {
+    /// An order was carried out, or was not: the round that it was to repeat was over.
+    pub(crate) fn answer_order(&mut self, refused_round: Option<u32>) {
+        self.refused_round = refused_round;
+        self.has_news = true;
+    }
+
+    /// Shows the session as it is, where that is news, and why the program cannot go on, where it cannot. Errors:
+    /// those of [`Status::of`].
+    pub(crate) fn tell(
+        &mut self,
+        context: &egui::Context,
+        sitting: &Sitting,
+        stopped: Option<&str>,
+    ) -> anyhow::Result<()> {
         if !std::mem::take(&mut self.has_news) {
             return Ok(());
         }
@@ -108,6 +122,8 @@ impl Administrator {
             elapsed_secs: sitting.elapsed_secs(),
             has_begun: recorder.has_begun(),
             is_paused: sitting.is_paused(),
+            stopped,
+            refused_round: self.refused_round,
             disk,
         };
         let status = Status::of(given, &mut self.bands)?;

@@ -59,7 +59,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "OBSERVER", value_parser = observer)]
     pub(crate) rehearse: Option<ObserverModel>,
 
-    /// Times as fast as a person; the fixation interval shrinks alike
+    /// Times as fast as a person, from 0.1 to 10000; the fixation interval shrinks alike
     #[arg(long, value_name = "N", value_parser = speed, default_value_t = 1.0, requires = "rehearse")]
     pub(crate) speed: f64,
 

@@ -33,9 +33,9 @@ use std::rc::Rc;
 use anyhow::Context;
 use clap::Parser;
 use eframe::egui;
-use scumble_psychophysics::{Protocol, read_session};
+use scumble_psychophysics::Protocol;
 
-use crate::arguments::Arguments;
+use crate::arguments::{Arguments, ResumePolicy};
 use crate::outcome::Outcome;
 use crate::program::Program;
 use crate::session_folder::{Found, find};
@@ -93,12 +93,11 @@ fn session(arguments: &Arguments) -> anyhow::Result<(Sitting, MeasuredDisplay)> 
     let mut found_now = found(arguments)?;
     let mut number = arguments.participant_number;
     if let (Found::Interrupted(interrupted), Some(policy)) = (&found_now, arguments.resume) {
-        // A session that takes a discarded one's place is the same person's, with the same order of rounds.
-        number = Some(read_session(&interrupted.directory)?.header.participant_number);
-        match program::resume(&interrupted.directory, policy)? {
-            Some(sitting) => return Ok((sitting, MeasuredDisplay::default())),
-            None => found_now = found(arguments)?,
+        if policy != ResumePolicy::Discard {
+            return Ok((Sitting::resume(&interrupted.directory, policy)?, MeasuredDisplay::default()));
         }
+        number = Some(sitting::discard(&interrupted.directory)?);
+        found_now = found(arguments)?;
     } else if let (Found::Free(directory), Some(_)) = (&found_now, arguments.resume) {
         let directory = directory.display();
         anyhow::bail!("{directory}: no session to continue; without --resume one begins there");

@@ -1,7 +1,6 @@
 //! The program as eframe sees it: the set-up, then a session.
 
 use std::cell::RefCell;
-use std::path::Path;
 use std::rc::Rc;
 
 use eframe::egui;
@@ -98,14 +97,15 @@ impl Program {
                 return;
             }
             SetupAction::Done(ready) => self.begin(*ready),
-            SetupAction::Interrupted(directory, policy) => match resume(&directory, policy) {
-                Ok(None) => {
-                    setup.look_again();
+            SetupAction::Interrupted(directory, ResumePolicy::Discard) => match sitting::discard(&directory) {
+                Ok(participant_number) => {
+                    setup.discarded(participant_number);
                     return;
                 }
-                Ok(Some(sitting)) => Ok(SessionView::new(sitting, None, MeasuredDisplay::default())),
                 Err(error) => Err(error),
             },
+            SetupAction::Interrupted(directory, policy) => Sitting::resume(&directory, policy)
+                .map(|sitting| SessionView::new(sitting, None, MeasuredDisplay::default())),
         };
         self.part = match next {
             Ok(view) => Part::Session(Box::new(view)),
@@ -123,14 +123,6 @@ impl Program {
         RecentFolders::of_user().remember(folder);
         let sitting = Sitting::fresh(ready.study.clone(), &directory, header)?;
         Ok(SessionView::new(sitting, None, ready.measured))
-    }
-}
-
-/// The interrupted session, to be continued; `None` where it is thrown away.
-pub(crate) fn resume(directory: &Path, policy: ResumePolicy) -> anyhow::Result<Option<Sitting>> {
-    match policy {
-        ResumePolicy::Discard => sitting::discard(directory).map(|()| None),
-        _ => Sitting::resume(directory, policy).map(Some),
     }
 }
 

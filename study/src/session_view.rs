@@ -143,7 +143,11 @@ impl SessionView {
         }
     }
 
+    /// Cannot go on. What the administrator is told of it cannot be the cause of telling it again.
     fn stop(&mut self, error: &anyhow::Error) {
+        if self.fatal.is_none() {
+            self.administrator.note_news();
+        }
         self.fatal = Some(format!("{error:#}"));
     }
 
@@ -185,7 +189,7 @@ impl SessionView {
             if !self.sitting.is_paused() {
                 self.obey(Order::Pause);
             }
-            self.administrator.tell(ui.ctx(), &self.sitting)?;
+            self.administrator.tell(ui.ctx(), &self.sitting, self.fatal.as_deref())?;
             orders.extend(self.administrator.show(ui));
         } else {
             // Before anything is painted, so that the next cross is in this frame and not in the one after it.
@@ -208,7 +212,7 @@ impl SessionView {
         if is_ordered && !self.sitting.is_paused() {
             ui.ctx().send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Focus);
         }
-        self.administrator.tell(ui.ctx(), &self.sitting)
+        self.administrator.tell(ui.ctx(), &self.sitting, self.fatal.as_deref())
     }
 }
 

@@ -129,7 +129,7 @@ impl Sitting {
             }
             self.recorder.append(Event::Resume(Moment { interrupted_secs, ..moment(notes) }));
             if pause.repeats_round {
-                self.repeat_round();
+                self.repeat_round(self.experiment.progress().round);
             }
             self.end_if_finished();
         }
@@ -140,21 +140,24 @@ impl Sitting {
         self.recorder.append(Event::Note(moment(vec![note])));
     }
 
-    /// The practice once more; an order that comes too late for it does nothing, as the two below.
+    /// The practice once more; an order that comes too late for it does nothing.
     pub(crate) fn repeat_practice(&mut self) {
         if self.experiment.repeat_practice().is_ok() {
             self.recorder.append(Event::RepeatPractice(moment(Vec::new())));
         }
     }
 
-    /// The round under way once more; its answers do not stand.
-    pub(crate) fn repeat_round(&mut self) {
-        if self.experiment.repeat_round().is_ok() {
+    /// This round once more, whose answers then do not stand. False, and nothing happens, where it is over or has no
+    /// answers: an order may come when the next round is under way.
+    pub(crate) fn repeat_round(&mut self, round: u32) -> bool {
+        let is_repeated = self.experiment.progress().round == round && self.experiment.repeat_round().is_ok();
+        if is_repeated {
             self.recorder.append(Event::RepeatRound(moment(Vec::new())));
         }
+        is_repeated
     }
 
-    /// Ends the session early.
+    /// Ends the session early, unless it is over.
     pub(crate) fn stop(&mut self) {
         if self.experiment.stop().is_ok() {
             self.recorder.append(Event::Stop(moment(Vec::new())));
@@ -185,12 +188,73 @@ fn moment(notes: Vec<String>) -> Moment {
     Moment { at: Timestamp::now(), notes, interrupted_secs: None }
 }
 
-/// Throws an interrupted session away: its record says so, and stays.
-pub(crate) fn discard(directory: &Path) -> anyhow::Result<()> {
-    let (mut recorder, _) = Recorder::reopen(directory)?;
+/// Throws an interrupted session away: its record says so, and stays. Gives the number of its participant, which is
+/// that of the session that takes its place, so that the order of the rounds is the same.
+pub(crate) fn discard(directory: &Path) -> anyhow::Result<u32> {
+    let (mut recorder, session) = Recorder::reopen(directory)?;
     recorder.append(Event::Discard(moment(Vec::new())));
     match recorder.problem() {
         Some(problem) => anyhow::bail!("{problem}"),
-        None => Ok(()),
+        None => Ok(session.header.participant_number),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+    use crate::software::software;
+    use scumble_psychophysics::Protocol;
+
+    /// A fresh session of two short rounds, begun.
+    fn begun(directory: &Path) -> Sitting {
+        let mut protocol = Protocol::two_alternative();
+        protocol.practice.ratios.clear();
+        protocol.conditions.contrasts.truncate(1);
+        protocol.conditions.texels_px.truncate(1);
+        (protocol.schedule.trials_min, protocol.schedule.trials_max) = (2, 2);
+        let file = directory.join("short.toml");
+        std::fs::write(&file, protocol.to_toml().unwrap()).unwrap();
+        let folder = StudyFolder::open(&directory.join("study"), file.to_str()).unwrap();
+        let header = SessionHeader::new("p07", protocol, 1, Timestamp::now(), software());
+        let mut sitting = Sitting::fresh(folder, &directory.join("study/p07"), header).unwrap();
+        sitting.proceed(|| None).unwrap();
+        sitting
+    }
+
+    /// Goes on to the first answer of a round.
+    fn answer_in(sitting: &mut Sitting, round: u32) {
+        loop {
+            match sitting.experiment().stage().trial().copied() {
+                None => sitting.proceed(|| None).unwrap(),
+                Some(trial) => {
+                    let answer = trial.pictures.right_answer();
+                    let (pictures_sha256, timing) = (Vec::new(), None);
+                    sitting.answer(Reply { answer, response_time_secs: 1.0, pictures_sha256, timing }).unwrap();
+                    if trial.round == round {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_order_to_repeat_a_round_that_is_over_by_then_repeats_no_other_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut sitting = begun(folder.path());
+        answer_in(&mut sitting, 2);
+        let (before, events) = (sitting.experiment().clone(), sitting.recorder().events().len());
+        assert!(!sitting.repeat_round(1));
+        assert_eq!((sitting.experiment(), sitting.recorder().events().len()), (&before, events));
+        assert!(sitting.repeat_round(2));
+        assert!(matches!(sitting.recorder().events().last(), Some(Event::RepeatRound(_))));
+    }
+
+    #[test]
+    fn a_discarded_session_names_the_number_of_its_participant() {
+        let folder = tempfile::tempdir().unwrap();
+        drop(begun(folder.path()));
+        assert_eq!(discard(&folder.path().join("study/p07")).unwrap(), 7);
     }
 }

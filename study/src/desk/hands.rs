@@ -37,7 +37,7 @@ fn f5_pauses_and_goes_on() {
 #[test]
 fn an_order_that_loses_something_is_given_after_a_question_alone() {
     for (key, name, order) in
-        [(Key::F8, "Repeat the round", Order::RepeatRound), (Key::F9, "End the session", Order::Stop)]
+        [(Key::F8, "Repeat the round", Order::RepeatRound(1)), (Key::F9, "End the session", Order::Stop)]
     {
         // Return right after the key is on "Cancel".
         let mut harness = panel(in_trial().status());

@@ -13,8 +13,8 @@ pub(crate) enum Order {
     Note(String),
     /// Practice once more.
     RepeatPractice,
-    /// The round under way once more; its answers do not stand.
-    RepeatRound,
+    /// The round of this number once more; its answers do not stand. Another round that has begun since is not meant.
+    RepeatRound(u32),
     /// End the session early.
     Stop,
 }
@@ -26,6 +26,8 @@ pub(crate) enum Barrier {
     NotBegun,
     /// The session is over.
     Over,
+    /// The program could not go on; a note is still taken.
+    Stopped,
     AlreadyPaused,
     NotPaused,
     /// Practice comes before a round or in a rest, not between trials.
@@ -34,6 +36,8 @@ pub(crate) enum Barrier {
     NoPractice,
     /// The round under way has no answers that could be replaced.
     RoundUnanswered,
+    /// The round is not under way any more.
+    RoundOver,
 }
 
 impl Status {
@@ -46,13 +50,17 @@ impl Status {
         if !self.has_begun {
             return Some(Barrier::NotBegun);
         }
+        if self.stopped.is_some() && !matches!(order, Order::Note(_)) {
+            return Some(Barrier::Stopped);
+        }
         match order {
             Order::Note(_) | Order::Stop => None,
             Order::Pause => self.is_paused.then_some(Barrier::AlreadyPaused),
             Order::Resume => (!self.is_paused).then_some(Barrier::NotPaused),
             Order::RepeatPractice if !self.has_practice => Some(Barrier::NoPractice),
             Order::RepeatPractice => (!self.can_repeat_practice).then_some(Barrier::BetweenTrials),
-            Order::RepeatRound => (!self.can_repeat_round).then_some(Barrier::RoundUnanswered),
+            Order::RepeatRound(round) if *round != self.progress.round => Some(Barrier::RoundOver),
+            Order::RepeatRound(_) => (!self.can_repeat_round).then_some(Barrier::RoundUnanswered),
         }
     }
 }

@@ -20,14 +20,15 @@ const STOP_KEY: Key = Key::F9;
 /// An order that loses something, and is asked about once more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ask {
-    RepeatRound,
+    /// Of this number.
+    RepeatRound(u32),
     Stop,
 }
 
 impl Ask {
     fn order(self) -> Order {
         match self {
-            Self::RepeatRound => Order::RepeatRound,
+            Self::RepeatRound(round) => Order::RepeatRound(round),
             Self::Stop => Order::Stop,
         }
     }
@@ -43,6 +44,9 @@ pub(super) fn orders(
 ) -> Option<Order> {
     // The session may have moved on while the question stood.
     desk.ask = desk.ask.filter(|ask| status.barrier(&ask.order()).is_none());
+    if let Some(round) = status.refused_round {
+        ui.label(RichText::new((words.round_was_over)(round)).strong().color(look.palette.wrong));
+    }
     let order = match desk.ask {
         Some(ask) => question(ui, status, desk, ask, look, words),
         None => buttons(ui, status, desk, look, words),
@@ -57,7 +61,7 @@ fn buttons(ui: &mut Ui, status: &Status, desk: &mut DeskState, look: Look, words
     let offered = [
         (pause.0, pause.1, PAUSE_KEY),
         (Order::RepeatPractice, words.repeat_practice, PRACTICE_KEY),
-        (Order::RepeatRound, words.repeat_round, ROUND_KEY),
+        (Order::RepeatRound(status.progress.round), words.repeat_round, ROUND_KEY),
         (Order::Stop, words.stop, STOP_KEY),
     ];
     let mut given = None;
@@ -77,7 +81,7 @@ fn buttons(ui: &mut Ui, status: &Status, desk: &mut DeskState, look: Look, words
         }
     });
     match given? {
-        Order::RepeatRound => desk.ask = Some(Ask::RepeatRound),
+        Order::RepeatRound(round) => desk.ask = Some(Ask::RepeatRound(round)),
         Order::Stop => desk.ask = Some(Ask::Stop),
         order => return Some(order),
     }
@@ -95,9 +99,7 @@ fn question(
     words: &DeskWords,
 ) -> Option<Order> {
     let (text, yes) = match ask {
-        Ask::RepeatRound => {
-            ((words.ask_repeat_round)(status.progress.round, status.answers_of_round), words.yes_repeat_round)
-        }
+        Ask::RepeatRound(round) => ((words.ask_repeat_round)(round, status.answers_of_round), words.yes_repeat_round),
         Ask::Stop => ((words.ask_stop)(status), words.yes_stop),
     };
     ui.label(RichText::new(text).strong().color(look.palette.wrong));

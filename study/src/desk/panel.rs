@@ -66,7 +66,7 @@ fn header(ui: &mut Ui, status: &Status, desk: &mut DeskState, look: Look, words:
         ui.label(RichText::new(&status.participant).heading().strong());
         ui.label(RichText::new(&status.protocol).color(look.palette.faint_ink));
         let (text, color) = match status.activity() {
-            Activity::Paused => ((words.activity)(Activity::Paused), look.palette.wrong),
+            activity @ (Activity::Paused | Activity::Stopped) => ((words.activity)(activity), look.palette.wrong),
             activity => ((words.activity)(activity), look.palette.ink),
         };
         ui.label(RichText::new(text).strong().color(color));
@@ -81,14 +81,22 @@ fn header(ui: &mut Ui, status: &Status, desk: &mut DeskState, look: Look, words:
             }
         });
     });
-    if let Disk::Waiting { problem } = &status.disk {
-        let frame = Frame::new().fill(look.palette.wrong).corner_radius(5.0).inner_margin(8.0 * look.scale);
-        frame.show(ui, |ui| {
-            ui.set_width(ui.available_width());
-            let text = RichText::new((words.waiting)(problem)).strong().color(look.palette.ground);
-            ui.add(egui::Label::new(text).wrap());
-        });
+    if let Some(problem) = &status.stopped {
+        alarm(ui, (words.stopped)(problem), look);
     }
+    if let Disk::Waiting { problem } = &status.disk {
+        alarm(ui, (words.waiting)(problem), look);
+    }
+}
+
+/// What somebody has to see to.
+fn alarm(ui: &mut Ui, text: String, look: Look) {
+    let frame = Frame::new().fill(look.palette.wrong).corner_radius(5.0).inner_margin(8.0 * look.scale);
+    frame.show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        let text = RichText::new(text).strong().color(look.palette.ground);
+        ui.add(egui::Label::new(text).wrap());
+    });
 }
 
 /// The strip of rounds; those that have begun can be looked at.

@@ -75,6 +75,19 @@ fn a_disk_that_refuses_answers_is_said_at_the_top() {
 }
 
 #[test]
+fn what_the_program_cannot_work_around_is_said_at_the_top() {
+    let stopped = Some("the picture of trial 71 cannot be drawn".to_owned());
+    let status = Status { stopped, ..mid_round("two-alternative").status() };
+    shot(status, DeskState::default(), Language::English, "stopped");
+}
+
+#[test]
+fn an_order_that_came_too_late_is_said_above_the_orders() {
+    let status = Status { refused_round: Some(1), ..mid_round("two-alternative").status() };
+    shot(status, DeskState::default(), Language::German, "too_late");
+}
+
+#[test]
 #[ignore = "writes large pictures to look at into the temporary folder"]
 fn at_3840_by_2160_and_in_a_narrow_window() {
     let large = Vec2::new(3840.0, 2160.0);

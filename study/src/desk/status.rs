@@ -17,6 +17,10 @@ pub(crate) struct Given<'a> {
     /// Whether there is a record.
     pub(crate) has_begun: bool,
     pub(crate) is_paused: bool,
+    /// Why the program cannot go on.
+    pub(crate) stopped: Option<&'a str>,
+    /// Round that was over when its repetition was ordered.
+    pub(crate) refused_round: Option<u32>,
     pub(crate) disk: Disk,
 }
 
@@ -35,6 +39,10 @@ pub(crate) struct Status {
     pub(crate) is_over: bool,
     /// Whether it was ended before the last trial.
     pub(crate) is_ended_early: bool,
+    /// Why the program cannot go on.
+    pub(crate) stopped: Option<String>,
+    /// Round that was over when the latest order, to repeat it, came.
+    pub(crate) refused_round: Option<u32>,
     pub(crate) has_practice: bool,
     pub(crate) can_repeat_practice: bool,
     pub(crate) can_repeat_round: bool,
@@ -70,6 +78,8 @@ pub(crate) enum Activity {
     Paused,
     Complete,
     EndedEarly,
+    /// The program could not go on.
+    Stopped,
 }
 
 /// A round, with a chart for each of its staircases.
@@ -119,7 +129,8 @@ pub(crate) enum Disk {
 impl Status {
     /// The session as it stands. Errors: responses that a staircase refuses, which no experiment holds.
     pub(crate) fn of(given: Given<'_>, bands: &mut Bands) -> Result<Self, Error> {
-        let Given { experiment, header, events, elapsed_secs, has_begun, is_paused, disk } = given;
+        let Given { experiment, header, events, elapsed_secs, has_begun, is_paused, stopped, refused_round, disk } =
+            given;
         let (protocol, progress, stage) = (experiment.protocol(), experiment.progress(), *experiment.stage());
         let answers = standing(events);
         let is_over = stage == Stage::Finished || events.last().is_some_and(Event::is_last);
@@ -141,6 +152,8 @@ impl Status {
             is_paused,
             is_over,
             is_ended_early: matches!(events.last(), Some(Event::Stop(_) | Event::Discard(_))),
+            stopped: stopped.map(str::to_owned),
+            refused_round,
             has_practice: !protocol.practice.ratios.is_empty(),
             can_repeat_practice: experiment.clone().repeat_practice().is_ok(),
             can_repeat_round: experiment.clone().repeat_round().is_ok(),
@@ -161,6 +174,7 @@ impl Status {
         match self.stage {
             _ if self.is_ended_early => Activity::EndedEarly,
             _ if self.is_over => Activity::Complete,
+            _ if self.stopped.is_some() => Activity::Stopped,
             _ if self.is_paused => Activity::Paused,
             Stage::Instructions => Activity::Instructions,
             Stage::Practice(_) | Stage::Feedback { .. } => Activity::Practice,

@@ -79,6 +79,8 @@ impl Rehearsed {
             elapsed_secs: self.now_secs,
             has_begun: *self.experiment.stage() != Stage::Instructions,
             is_paused,
+            stopped: None,
+            refused_round: None,
             disk,
         }
     }

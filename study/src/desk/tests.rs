@@ -65,7 +65,8 @@ fn a_repeated_round_has_no_points_and_earlier_rounds_keep_theirs() {
     assert_eq!(after.rounds[0].state, RoundState::Done);
     assert_eq!((after.rounds[1].trials(), after.rounds[1].state), (0, RoundState::UnderWay));
     assert_eq!(after.answers_of_round, 0);
-    assert_eq!(after.barrier(&Order::RepeatRound), Some(Barrier::RoundUnanswered));
+    assert_eq!(after.barrier(&Order::RepeatRound(2)), Some(Barrier::RoundUnanswered));
+    assert_eq!(before.barrier(&Order::RepeatRound(1)), Some(Barrier::RoundOver));
 }
 
 #[test]
@@ -113,8 +114,14 @@ fn missed_frames_are_summed_and_notes_are_listed_with_their_time() {
 
 #[test]
 fn what_can_be_ordered_follows_the_experiment() {
-    let orders =
-        [Order::Pause, Order::Resume, Order::Note("x".into()), Order::RepeatPractice, Order::RepeatRound, Order::Stop];
+    let orders = [
+        Order::Pause,
+        Order::Resume,
+        Order::Note("x".into()),
+        Order::RepeatPractice,
+        Order::RepeatRound(1),
+        Order::Stop,
+    ];
     let barriers = |status: &Status| orders.clone().map(|order| status.barrier(&order));
 
     let instructions = Rehearsed::new("two-alternative").status();
@@ -131,6 +138,11 @@ fn what_can_be_ordered_follows_the_experiment() {
     let paused = trial.status_of(true, Disk::Saved);
     assert_eq!(barriers(&paused), [Some(Barrier::AlreadyPaused), None, None, between, None, None]);
     assert_eq!(paused.activity(), Activity::Paused);
+
+    let stopped = Status { stopped: Some("no picture".to_owned()), ..trial.status() };
+    let [pause, resume, note, practice, round, stop] = barriers(&stopped);
+    assert_eq!([pause, resume, practice, round, stop], [Some(Barrier::Stopped); 5]);
+    assert_eq!((note, stopped.activity()), (None, Activity::Stopped));
 
     let mut over = Rehearsed::new("two-alternative").until(|_| false);
     assert_eq!(barriers(&over.status()), [Some(Barrier::Over); 6]);

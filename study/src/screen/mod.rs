@@ -23,7 +23,7 @@ pub(crate) use refused::refused;
 pub(crate) use rest::rest;
 pub(crate) use setup::setup;
 pub(crate) use stopped::stopped;
-pub(crate) use trial::{too_small, trial};
+pub(crate) use trial::{pixels_missing, too_small, trial};
 pub(crate) use unsaved::unsaved;
 
 use scumble_psychophysics::{Answer, Task};

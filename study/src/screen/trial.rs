@@ -65,20 +65,24 @@ pub(crate) fn trial(
 
 /// In place of pictures that would be cut off: whether they would be, and the page that says so.
 pub(crate) fn too_small(ui: &mut Ui, protocol: &Protocol, words: &ParticipantWords) -> bool {
-    let screen = ui.max_rect();
+    let missing = pixels_missing(ui.max_rect(), ui.pixels_per_point(), protocol);
+    if let Some([needed, given]) = missing {
+        page::page(ui, 200.0, words.too_small, |ui| ui.label((words.pixels_needed)(needed, given)));
+    }
+    missing.is_some()
+}
+
+/// Width and height in physical pixels that the pictures of a protocol need with everything around them, and those of
+/// the screen; `None` where they fit.
+pub(crate) fn pixels_missing(screen: Rect, pixels_per_point: f32, protocol: &Protocol) -> Option<[[f32; 2]; 2]> {
     let rules = protocol.pictures;
     let count = match protocol.task {
         Task::TwoAlternative => 2,
         Task::YesNo => 1,
     };
-    let needed = Places::new(screen, [rules.width_px, rules.height_px], count, ui.pixels_per_point()).needed;
-    let is_too_small = !screen.contains_rect(needed);
-    if is_too_small {
-        let pixels = |rect: Rect| [rect.width(), rect.height()].map(|side| side * ui.pixels_per_point());
-        let text = (words.pixels_needed)(pixels(needed), pixels(screen));
-        page::page(ui, 200.0, words.too_small, |ui| ui.label(text));
-    }
-    is_too_small
+    let needed = Places::new(screen, [rules.width_px, rules.height_px], count, pixels_per_point).needed;
+    let pixels = |rect: Rect| [rect.width(), rect.height()].map(|side| side * pixels_per_point);
+    (!screen.contains_rect(needed)).then(|| [pixels(needed), pixels(screen)])
 }
 
 /// Where the pictures and the buttons go, in points.

@@ -6,6 +6,7 @@ use crate::desk::Order;
 impl SessionView {
     /// Does what the administrator ordered.
     pub(super) fn obey(&mut self, order: Order) {
+        let mut refused_round = None;
         match order {
             Order::Pause => self.hide_pictures(),
             Order::Resume => {
@@ -14,13 +15,13 @@ impl SessionView {
             }
             Order::Note(note) => self.sitting.note(note),
             Order::RepeatPractice => self.sitting.repeat_practice(),
-            Order::RepeatRound => {
-                self.presentation = None;
-                self.sitting.repeat_round();
-            }
+            Order::RepeatRound(round) => match self.sitting.repeat_round(round) {
+                true => self.presentation = None,
+                false => refused_round = Some(round),
+            },
             Order::Stop => self.sitting.stop(),
         }
-        self.administrator.note_news();
+        self.administrator.answer_order(refused_round);
     }
 
     /// Pauses; the trial under way is shown anew afterwards.

@@ -11,7 +11,7 @@ pub(crate) enum SetupAction {
     /// Begin the session; everything is entered.
     Done(Box<Ready>),
     /// Do this with the interrupted session of this folder. After [`ResumePolicy::Discard`] the set-up goes on,
-    /// once it was told to [`super::Setup::look_again`].
+    /// once it was told to [`super::Setup::discarded`].
     Interrupted(PathBuf, ResumePolicy),
     /// Move the window to the monitor of this index.
     Monitor(usize),

@@ -175,7 +175,14 @@ impl Setup {
         }
     }
 
-    /// Reads the folder and the session anew: after a session there was discarded, or files were mended.
+    /// The interrupted session of the first page was discarded; the participant begins anew, with the number that they
+    /// had in it.
+    pub(crate) fn discarded(&mut self, participant_number: u32) {
+        self.study.take_over(participant_number);
+        self.look_again();
+    }
+
+    /// Reads the folder and the session anew: files there were changed.
     pub(crate) fn look_again(&mut self) {
         self.study.look(self.language);
     }

@@ -245,3 +245,20 @@ fn recent_folders_are_offered_and_the_newest_is_picked_by_its_place() {
     setup.pick_folder(&newest);
     assert_eq!(setup.study().opened().unwrap().study.directory(), folders[1]);
 }
+
+#[test]
+fn who_begins_anew_after_a_discarded_session_keeps_its_number_and_nobody_else_gets_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut setup = fresh(folder.path(), "p01");
+    setup.discarded(5);
+    assert_eq!(setup.finish().unwrap().participant_number, 5);
+    setup.set_participant("p02".to_owned());
+    assert_eq!(setup.finish().unwrap().participant_number, 2);
+    setup.set_participant("p01".to_owned());
+    assert_eq!(setup.finish().unwrap().participant_number, 5);
+    setup.set_number("3".to_owned());
+    assert_eq!(setup.finish().unwrap().participant_number, 3, "what somebody types stands");
+    setup.set_number(String::new());
+    setup.set_folder(folder.path().join("another").display().to_string());
+    assert_eq!(setup.finish().unwrap().participant_number, 1);
+}

@@ -36,8 +36,10 @@ pub(crate) struct StudyEntry {
     asked_protocol: Option<String>,
     chosen_protocol: &'static str,
     participant: String,
-    /// Number of the participant as it was typed; empty for the one at the end of the code.
+    /// Number of the participant as it was typed; empty for the one that goes with the code.
     number: String,
+    /// A participant of this study whose session was discarded on this page, and their number there.
+    discarded: Option<(String, u32)>,
     opened: Option<Result<Opened, FolderProblem>>,
     /// The last protocol and what it asks for: simulated people need a moment, too long for every letter.
     effort: Option<(Protocol, Option<Effort>)>,
@@ -56,8 +58,8 @@ impl StudyEntry {
     ) -> Self {
         let number = number.map_or_else(String::new, |number| number.to_string());
         let chosen_protocol = DEFAULT_PROTOCOL;
-        let (opened, effort, found) = (None, None, None);
-        Self { folder, asked_protocol, chosen_protocol, participant, number, opened, effort, found, find }
+        let (discarded, opened, effort, found) = (None, None, None, None);
+        Self { folder, asked_protocol, chosen_protocol, participant, number, discarded, opened, effort, found, find }
     }
 
     /// The folder as it was typed.
@@ -96,6 +98,11 @@ impl StudyEntry {
         self.asked_protocol.is_none() && self.opened().is_some_and(|opened| opened.study.is_new())
     }
 
+    /// The protocol that the command line asks for.
+    pub(crate) fn asked_protocol(&self) -> Option<&str> {
+        self.asked_protocol.as_deref()
+    }
+
     /// The protocol chosen for a new study.
     pub(crate) fn chosen_protocol(&self) -> &'static str {
         self.chosen_protocol
@@ -106,13 +113,17 @@ impl StudyEntry {
         self.opened().is_some_and(|opened| opened.study.protocol().schedule.order == Order::LatinSquare)
     }
 
-    /// The number that the code ends with, 0 without one; `None` while there is no study.
+    /// The number that goes with the code: that of the session that was discarded under it, else the one that it ends
+    /// with, 0 without one; `None` while there is no study.
     pub(crate) fn number_of_code(&self) -> Option<u32> {
         let opened = self.opened()?;
+        if let Some((_, number)) = self.discarded.as_ref().filter(|(code, _)| *code == self.participant) {
+            return Some(*number);
+        }
         Some(header_of(&self.participant, opened.study.protocol()).participant_number)
     }
 
-    /// The number typed, else the one at the end of the code; `None` for what is no number.
+    /// The number typed, else the one that goes with the code; `None` for what is no number.
     pub(super) fn participant_number(&self) -> Option<u32> {
         match self.number.trim() {
             "" => self.number_of_code(),
@@ -122,6 +133,7 @@ impl StudyEntry {
 
     pub(super) fn set_folder(&mut self, folder: String, language: Language) {
         self.folder = folder;
+        self.discarded = None;
         self.look(language);
     }
 
@@ -137,6 +149,11 @@ impl StudyEntry {
     pub(super) fn choose_protocol(&mut self, name: &'static str, language: Language) {
         self.chosen_protocol = name;
         self.look(language);
+    }
+
+    /// The session under this code was discarded; the one that takes its place has its number.
+    pub(super) fn take_over(&mut self, number: u32) {
+        self.discarded = Some((self.participant.clone(), number));
     }
 
     /// Reads everything anew from the disk.

@@ -22,6 +22,8 @@ pub(crate) struct DeskWords {
     pub(crate) elapsed: fn(u32) -> String,
     pub(crate) saved: &'static str,
     pub(crate) waiting: fn(&str) -> String,
+    /// Why the program cannot go on.
+    pub(crate) stopped: fn(&str) -> String,
     pub(crate) dark: &'static str,
     pub(crate) light: &'static str,
 
@@ -53,6 +55,8 @@ pub(crate) struct DeskWords {
     pub(crate) repeat_practice: &'static str,
     pub(crate) repeat_round: &'static str,
     pub(crate) stop: &'static str,
+    /// Round that was to be repeated.
+    pub(crate) round_was_over: fn(u32) -> String,
     pub(crate) barrier: fn(Barrier) -> &'static str,
     /// Round, and number of its answers.
     pub(crate) ask_repeat_round: fn(u32, u32) -> String,

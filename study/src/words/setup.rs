@@ -32,6 +32,8 @@ pub(crate) struct SetupWords {
     pub(crate) protocol: &'static str,
     pub(crate) task: fn(Task) -> &'static str,
     pub(crate) effort: fn(&Effort) -> String,
+    /// While no folder is named.
+    pub(crate) protocol_first: &'static str,
     pub(crate) protocol_new: &'static str,
     pub(crate) protocol_kept: &'static str,
     pub(crate) language: &'static str,
@@ -160,6 +162,17 @@ mod tests {
         for (problem, words) in problems.iter().flat_map(|problem| BOTH.map(|words| (problem, words))) {
             let sentence = (words.problem)(problem);
             assert!(sentence.contains("found"), "{sentence}");
+        }
+    }
+
+    #[test]
+    fn what_a_reader_of_files_says_in_english_comes_after_what_to_do_in_german() {
+        let unreadable = ConsentProblem::Unreadable { file: "found".into(), reason: "empty".into() };
+        let protocol = FolderProblem::Protocol(Error::SessionInUse("found".into()));
+        for problem in [Problem::Consent(&unreadable), Problem::Luminance("found"), Problem::Folder(&protocol)] {
+            let sentence = (GERMAN.problem)(&problem);
+            let (to_do, message) = sentence.split_once(" Meldung: ").unwrap();
+            assert!(to_do.ends_with('.') && message.contains("found"), "{sentence}");
         }
     }
 

@@ -5,7 +5,7 @@ use eframe::egui;
 use egui::text_edit::TextEditState;
 use egui::{Align, Id, Key, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::{focus, widgets};
+use super::{focus, study, widgets};
 use crate::setup::{Page, Problem, Setup};
 use crate::theme;
 use crate::words::setup::SetupWords;
@@ -43,7 +43,10 @@ pub(super) fn frame(
 
     let problem = setup.problem().filter(|problem| !matches!(problem, Problem::NoConsent));
     let problem = problem.map(|problem| (words.problem)(&problem));
-    let notice_height = problem.as_deref().map_or(0.0, |problem| widgets::notice_height(ui, problem, column.width()));
+    let too_small = (page == Page::Study).then(|| study::too_small(ui, setup)).flatten();
+    let notices: Vec<String> = [too_small, problem].into_iter().flatten().collect();
+    let text = (!notices.is_empty()).then(|| notices.join("\n"));
+    let notice_height = text.as_deref().map_or(0.0, |text| widgets::notice_height(ui, text, column.width()));
     let (heading, below) = column.split_top_bottom_at_y(column.top() + HEADING * scale);
     let (above, buttons) = below.split_top_bottom_at_y(below.bottom() - BUTTONS * scale);
     let (middle, notice) = above.split_top_bottom_at_y(above.bottom() - notice_height);
@@ -59,12 +62,16 @@ pub(super) fn frame(
     in_rect(ui, middle.shrink2(Vec2::new(0.0, 6.0)), page, Layout::top_down(Align::Min), |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| content(ui, setup));
     });
-    if let Some(problem) = problem {
-        in_rect(ui, notice, "notice", Layout::top_down(Align::Min), |ui| widgets::notice(ui, &problem));
+    if let Some(text) = text {
+        in_rect(ui, notice, "notice", Layout::top_down(Align::Min), |ui| widgets::notice(ui, &text));
     }
     // The keyboard comes to the way on first.
-    let on = in_rect(ui, buttons, "on", Layout::right_to_left(Align::Center), |ui| way_on(ui, page, words));
-    let back = in_rect(ui, buttons, "back", Layout::left_to_right(Align::Center), |ui| way_back(ui, page, words));
+    let (on, on_left) = in_rect(ui, buttons, "on", Layout::right_to_left(Align::Center), |ui| {
+        let on = way_on(ui, page, words);
+        (on, ui.min_rect().left())
+    });
+    let beside = buttons.with_max_x(on_left - ui.spacing().item_spacing.x);
+    let back = in_rect(ui, beside, "back", Layout::left_to_right(Align::Center), |ui| way_back(ui, page, words));
     let clicked = on.or(back);
     clicked.or_else(|| key(ui, page, had_keyboard))
 }
@@ -86,7 +93,7 @@ fn way_on(ui: &mut Ui, page: Page, words: &SetupWords) -> Option<Press> {
 /// The button that goes back, and what keys do.
 fn way_back(ui: &mut Ui, page: Page, words: &SetupWords) -> Option<Press> {
     let back = page != Page::Study && ui.button(words.back).clicked();
-    ui.label(RichText::new((words.keys)(page)).small().color(theme::FAINT_INK));
+    widgets::small(ui, (words.keys)(page));
     back.then_some(Press::Back)
 }
 

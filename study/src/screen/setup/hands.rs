@@ -85,8 +85,27 @@ fn a_number_key_picks_a_recent_study_unless_it_is_typed_into_a_line() {
     assert_eq!(harness.state().0.study().folder(), "src");
 
     let mut typed_into = at_720(setup(&recent));
-    press(&mut typed_into, &[Key::Tab, Key::Num2]);
+    typed_into.key_press_modifiers(Modifiers::SHIFT, Key::Tab);
+    typed_into.step();
+    press(&mut typed_into, &[Key::Num2]);
     assert_eq!(typed_into.state().0.study().folder(), "");
+}
+
+#[test]
+fn an_empty_page_has_the_keyboard_on_the_newest_study_and_without_one_in_the_line_for_a_folder() {
+    let mut recent = RecentFolders::default();
+    ["src", MEASURED].iter().for_each(|folder| recent.remember_as(Path::new(folder)));
+    let mut harness = at_720(Setup::new(Given { recent, participant: String::new(), ..given(Path::new("")) }));
+    press(&mut harness, &[Key::Enter]);
+    harness.event(egui::Event::Text("p12".to_owned()));
+    harness.step();
+    let study = harness.state().0.study();
+    assert_eq!((study.folder(), study.participant()), (MEASURED, "p12"));
+
+    let mut harness = at_720(Setup::new(given(Path::new(""))));
+    harness.event(egui::Event::Text("study1".to_owned()));
+    harness.step();
+    assert_eq!(harness.state().0.study().folder(), "study1");
 }
 
 #[derive(Debug)]

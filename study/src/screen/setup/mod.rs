@@ -14,6 +14,8 @@ mod widgets;
 #[cfg(test)]
 mod hands;
 #[cfg(test)]
+mod sizes;
+#[cfg(test)]
 mod snapshots;
 #[cfg(test)]
 mod testing;

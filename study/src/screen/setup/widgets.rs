@@ -65,7 +65,7 @@ pub(super) fn fact(ui: &mut Ui, name: &str, value: &str, is_missing: bool) {
         ui.add_space(left + width - ui.cursor().left());
         let value = RichText::new(value);
         let value = if is_missing { value.background_color(theme::FIELD) } else { value };
-        ui.add(Label::new(value).truncate());
+        ui.add(Label::new(value).wrap());
     });
 }
 
@@ -82,7 +82,8 @@ pub(super) fn line(ui: &mut Ui, name: &str, text: &str, hint: &str, width: f32, 
     let mut text = text.to_owned();
     let scale = scale(ui);
     let edit = TextEdit::singleline(&mut text).hint_text(hint).desired_width(width * scale);
-    let response = ui.add(edit.margin(margin(LINE * scale))).accessible_name(name);
+    // Named by what it asks for and not by its place: the keyboard stays with it when rows above it come or go.
+    let response = ui.add(edit.id_salt(name).margin(margin(LINE * scale))).accessible_name(name);
     if takes_keyboard {
         response.request_focus();
     }
@@ -110,9 +111,9 @@ pub(super) fn radio(ui: &mut Ui, is_chosen: bool, name: &str) -> bool {
     ui.scope(draw).inner
 }
 
-/// A line of small type below something, cut off where there is no room.
+/// Small type below something.
 pub(super) fn small(ui: &mut Ui, text: impl Into<String>) {
-    ui.add(Label::new(RichText::new(text).small().color(theme::FAINT_INK)).truncate());
+    ui.add(Label::new(RichText::new(text).small().color(theme::FAINT_INK)).wrap());
 }
 
 /// A margin of whole points, which is what egui has.

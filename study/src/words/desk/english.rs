@@ -17,10 +17,17 @@ pub(in crate::words) const ENGLISH: DeskWords = DeskWords {
         Activity::Paused => "Paused".to_owned(),
         Activity::Complete => "Complete".to_owned(),
         Activity::EndedEarly => "Ended early".to_owned(),
+        Activity::Stopped => "Stopped".to_owned(),
     },
     elapsed: |minutes| format!("minute {minutes}"),
     saved: "All answers are on disk",
     waiting: |problem| format!("Not saved, the session waits: {problem}"),
+    stopped: |problem| {
+        format!(
+            "The session cannot go on: {problem}. Close the participant's window; the answers so far are kept, and when \
+                 the cause is removed the session goes on from there."
+        )
+    },
     dark: "Dark",
     light: "Light",
     round: |round| format!("Round {}", round.number),
@@ -113,14 +120,19 @@ pub(in crate::words) const ENGLISH: DeskWords = DeskWords {
     repeat_practice: "Repeat practice",
     repeat_round: "Repeat round",
     stop: "End session early",
+    round_was_over: |round| {
+        format!("Round {round} was over before it could be repeated; its answers stand, and nothing was changed.")
+    },
     barrier: |barrier| match barrier {
         Barrier::NotBegun => "Possible once the participant has begun.",
         Barrier::Over => "The session is over.",
+        Barrier::Stopped => "The session has stopped.",
         Barrier::AlreadyPaused => "The session is paused.",
         Barrier::NotPaused => "The session is not paused.",
         Barrier::BetweenTrials => "Possible in practice and in rests.",
         Barrier::NoPractice => "The protocol has no practice.",
         Barrier::RoundUnanswered => "This round has no answers.",
+        Barrier::RoundOver => "That round is over.",
     },
     ask_repeat_round: |round, answers| {
         format!("Repeat round {round}? Its {} so far stay in the record but do not count.", answers_of(answers))

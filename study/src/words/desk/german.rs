@@ -17,10 +17,17 @@ pub(in crate::words) const GERMAN: DeskWords = DeskWords {
         Activity::Paused => "Angehalten".to_owned(),
         Activity::Complete => "Vollständig".to_owned(),
         Activity::EndedEarly => "Vorzeitig beendet".to_owned(),
+        Activity::Stopped => "Abgebrochen".to_owned(),
     },
     elapsed: |minutes| format!("Minute {minutes}"),
     saved: "Alle Antworten sind gespeichert",
     waiting: |problem| format!("Nicht gespeichert, die Sitzung wartet: {problem}"),
+    stopped: |problem| {
+        format!(
+            "Die Sitzung kann nicht weitergehen. Schließen Sie das Fenster der Versuchsperson; die bisherigen Antworten \
+                 bleiben erhalten, und ist die Ursache behoben, geht es dort weiter. Meldung: {problem}"
+        )
+    },
     dark: "Dunkel",
     light: "Hell",
     round: |round| format!("Runde {}", round.number),
@@ -121,14 +128,21 @@ pub(in crate::words) const GERMAN: DeskWords = DeskWords {
     repeat_practice: "Übung wiederholen",
     repeat_round: "Runde wiederholen",
     stop: "Vorzeitig beenden",
+    round_was_over: |round| {
+        format!(
+            "Runde {round} war vorbei, bevor sie wiederholt werden konnte; ihre Antworten gelten, nichts wurde geändert."
+        )
+    },
     barrier: |barrier| match barrier {
         Barrier::NotBegun => "Möglich, sobald die Sitzung begonnen hat.",
         Barrier::Over => "Die Sitzung ist zu Ende.",
+        Barrier::Stopped => "Die Sitzung wurde abgebrochen.",
         Barrier::AlreadyPaused => "Die Sitzung ist angehalten.",
         Barrier::NotPaused => "Die Sitzung ist nicht angehalten.",
         Barrier::BetweenTrials => "Möglich in der Übung und in Pausen.",
         Barrier::NoPractice => "Das Protokoll hat keine Übung.",
         Barrier::RoundUnanswered => "Diese Runde hat noch keine Antworten.",
+        Barrier::RoundOver => "Diese Runde ist vorbei.",
     },
     ask_repeat_round: |round, answers| match answers {
         1 => format!("Runde {round} wiederholen? Die Antwort dieser Runde bleibt aufgezeichnet, zählt aber nicht."),

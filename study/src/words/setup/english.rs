@@ -25,6 +25,7 @@ pub(in crate::words) const ENGLISH: SetupWords = SetupWords {
         Task::YesNo => "One picture at a time: was the original image a line?",
     },
     effort,
+    protocol_first: "Name the study's folder first: it may hold a protocol already.",
     protocol_new: "A new study: a copy of this protocol is put into its folder when the first session begins, \
                    for every participant after.",
     protocol_kept: "From protocol.toml in the study's folder, the same for every participant.",

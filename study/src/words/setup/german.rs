@@ -25,6 +25,7 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
         Task::YesNo => "Immer ein Bild: War das ursprüngliche Bild eine Linie?",
     },
     effort,
+    protocol_first: "Nennen Sie zuerst den Ordner der Studie: Vielleicht liegt dort schon ein Protokoll.",
     protocol_new: "Eine neue Studie: Mit der ersten Sitzung kommt eine Kopie dieses Protokolls in den Ordner, für \
                    alle weiteren Personen.",
     protocol_kept: "Aus protocol.toml im Ordner der Studie, für alle Personen dasselbe.",
@@ -171,10 +172,16 @@ fn problem(problem: &Problem<'_>) -> String {
             found.display()
         ),
         Problem::Consent(ConsentProblem::Unreadable { file, reason }) => {
-            format!("{}: {reason}; erlaubt ist ein Text in UTF-8", file.display())
+            // The readers of files speak English, here and below: what to do comes first.
+            format!(
+                "Der Einwilligungstext lässt sich nicht lesen: Speichern Sie ihn als Text in UTF-8. Meldung: {}: {reason}",
+                file.display()
+            )
         }
-        // The readers of files speak English.
-        Problem::Luminance(problem) => (*problem).to_owned(),
+        Problem::Luminance(problem) => format!(
+            "Die Messung des Bildschirms lässt sich nicht lesen: Verbessern Sie die genannte Zeile, oder nehmen Sie \
+             luminance.csv aus dem Ordner. Meldung: {problem}"
+        ),
         Problem::NoCode => "Wer nimmt teil? Geben Sie den Code der Person ein.".to_owned(),
         Problem::NotACode(code) => format!(
             "\u{201e}{code}\u{201c} ist kein Code. Erlaubt sind 1 bis 16 Buchstaben (a bis z), Ziffern, - und _, aber kein Name."
@@ -228,7 +235,10 @@ fn folder_problem(problem: &FolderProblem) -> String {
                 path.display()
             )
         }
-        FolderProblem::Protocol(error) => error.to_string(),
+        FolderProblem::Protocol(error) => format!(
+            "Das Protokoll lässt sich nicht verwenden: Verbessern Sie die genannte Stelle der Datei, oder nehmen Sie ein \
+             anderes. Meldung: {error}"
+        ),
         FolderProblem::Differs { file, name, asked, asked_name } => format!(
             "Die Studie hat das Protokoll \u{201e}{name}\u{201c} ({}), --protocol {asked} ist \u{201e}{asked_name}\u{201c} mit anderen \
              Parametern. Lassen Sie --protocol weg, um mit dem der Studie weiterzumachen, oder wählen Sie für eine neue \
