@@ -1,15 +1,21 @@
 //! The whole analysis: thresholds, every series, the worst of them, and the file for renderers.
 
+use std::f64::consts::LN_10;
+
 use scumble_core::{
-    ConditionEstimate, Estimate, FormTests, NullTest, PopulationPoint as FilePoint, Relation, RelationFile, SCHEMA,
+    ConditionEstimate, Estimate, FormTests, ModelParameters, NullTest, OtherEstimator, PopulationPoint as FilePoint,
+    Relation, RelationFile, SCHEMA,
 };
-use scumble_psychophysics::Protocol;
+use scumble_psychophysics::{Protocol, Round};
 
 use crate::{
     Error,
+    effects::{Effect, effects},
     estimate::MeanOverPeople,
+    mixed_model::MixedParameters,
     people::Study,
     population::Population,
+    prior_sensitivity::{UnderPrior, under_priors},
     series::{Series, kernel_name, pattern_name, round_of, series_name},
     thresholds::{ConditionThreshold, thresholds_of},
 };
@@ -29,6 +35,10 @@ pub struct Analysis {
     pub worst: usize,
     /// The viewers of the worst series.
     pub population: Population,
+    /// What pattern, contrast and round do.
+    pub effects: Vec<Effect>,
+    /// The worst series by the staircases' own estimates, under several priors.
+    pub under_priors: Vec<UnderPrior>,
     /// What was left out and why, in sentences.
     pub exclusions: Vec<String>,
 }
@@ -41,16 +51,8 @@ impl Analysis {
     /// and contrast, or no condition in which the experiment converged.
     pub fn of(study: &Study) -> Result<Self, Error> {
         let protocol = &study.protocol;
-        let thresholds: Vec<_> = study.people.iter().flat_map(|person| thresholds_of(person, protocol)).collect();
-        if !thresholds.iter().any(|entry| entry.converged > 0) {
-            return Err(Error::CannotFit(format!(
-                "none of {} staircases converged in any of {} people",
-                thresholds.iter().map(|entry| entry.staircases).sum::<usize>(),
-                study.people.len()
-            )));
-        }
-
-        let (mut series, mut exclusions) = (Vec::new(), left_out(&thresholds, protocol));
+        check_converged(study)?;
+        let (mut series, mut exclusions) = (Vec::new(), Vec::new());
         let mut refusal = None;
         for round in protocol.rounds() {
             match Series::of(round, &study.people, protocol) {
@@ -61,6 +63,11 @@ impl Analysis {
                 }
             }
         }
+        let fitted =
+            |round: Round| series.iter().find(|series| series.round == round).map(|s: &Series| s.fit.parameters());
+        let thresholds: Vec<_> =
+            study.people.iter().flat_map(|person| thresholds_of(person, protocol, &fitted)).collect();
+        exclusions.extend(left_out(&thresholds, protocol));
         let no_series = || Error::CannotFit("the protocol has no round".to_owned());
         let of_kernel = |index: &usize| Some(&series[*index].round.kernel) == protocol.conditions.kernels.first();
         let larger = |a: &usize, b: &usize| series[*a].log10_ratio.value.total_cmp(&series[*b].log10_ratio.value);
@@ -69,7 +76,9 @@ impl Analysis {
         };
 
         let population = Population::of(&series[worst].fit)?;
-        Ok(Self { thresholds, series, worst, population, exclusions })
+        let effects = effects(&series, &study.people, protocol);
+        let under_priors = under_priors(&series[worst], &study.people, protocol)?;
+        Ok(Self { thresholds, series, worst, population, effects, under_priors, exclusions })
     }
 
     /// The series whose ratio a renderer uses.
@@ -111,6 +120,9 @@ impl Analysis {
                     ratio: ratio_of(series),
                 })
                 .collect(),
+            model: Some(model_of(worst)),
+            other_estimators: other_estimators(worst),
+            protocol: Some(study.protocol.name.clone()),
             people: Some(study.people.len() as u64),
             trials: Some(study.trial_count() as u64),
             sessions: study.session_hashes(),
@@ -126,9 +138,48 @@ fn ratio_of(series: &Series) -> Estimate {
     Estimate { value: series.ratio(), standard_error: series.ratio_standard_error(), ci95: series.ratio_ci95() }
 }
 
+fn model_of(series: &Series) -> ModelParameters {
+    let MixedParameters { between_sd, slope, blind_share, .. } = series.fit.parameters();
+    ModelParameters { between_sd_log10: between_sd, slope_per_log10: slope, blind_share }
+}
+
+/// The ratio as others would estimate it, where the study carries that.
+fn other_estimators(series: &Series) -> Vec<OtherEstimator> {
+    let mean_of_logarithms = series.log_mean.map(|mean| {
+        let value = 10_f64.powf(mean.mean);
+        Estimate {
+            value,
+            standard_error: value * LN_10 * mean.standard_error,
+            ci95: mean.ci95.map(|limit| 10_f64.powf(limit)),
+        }
+    });
+    let line = series.origin_line.and_then(|line| {
+        let mean = line.over_people?;
+        Some(Estimate { value: line.slope, standard_error: mean.standard_error, ci95: mean.ci95 })
+    });
+    let named = [("mean_of_logarithms", mean_of_logarithms), ("line_through_origin", line)];
+    named
+        .into_iter()
+        .filter_map(|(name, ratio)| Some(OtherEstimator { name: name.to_owned(), ratio: ratio? }))
+        .collect()
+}
+
 fn null_test(mean: &MeanOverPeople, null: f64) -> NullTest {
     let estimate = Estimate { value: mean.mean, standard_error: mean.standard_error, ci95: mean.ci95 };
     NullTest { estimate, null, p_value: mean.p_value(null) }
+}
+
+/// Refuses a study in which no staircase met the experiment's own rule.
+fn check_converged(study: &Study) -> Result<(), Error> {
+    let tracks = || study.people.iter().flat_map(|person| &person.tracks);
+    if tracks().any(|track| track.converged() > 0) {
+        return Ok(());
+    }
+    Err(Error::CannotFit(format!(
+        "none of {} staircases converged in any of {} people",
+        tracks().map(|track| track.runs.len()).sum::<usize>(),
+        study.people.len()
+    )))
 }
 
 /// A sentence for every condition without a threshold.

@@ -5,7 +5,8 @@
 //! * Guess rate `g`: the person's own false alarm rate where lines alone were shown, the protocol's
 //!   elsewhere. A person who calls every second line an artifact also calls every second unseen
 //!   artifact one.
-//! * Blind share `e` and slope: the protocol's.
+//! * Blind share `e` and slope: those that the mixed model of the series found in everyone's answers, with the
+//!   protocol's as weak priors; the protocol's where there is no such model.
 //! * The threshold lies where artifacts are detected in the share 0.64 of the trials, which is 82 % of two
 //!   alternatives, whatever a protocol's staircases aim at: ratios of all protocols mean the same.
 
@@ -13,6 +14,7 @@ use scumble_psychophysics::Protocol;
 
 use crate::{
     maximum_likelihood::{Model, Parameter},
+    mixed_model::MixedParameters,
     people::Person,
 };
 
@@ -46,6 +48,11 @@ impl Assumptions {
     pub fn of_person(person: &Person, protocol: &Protocol) -> Self {
         let known = Self::of_protocol(protocol);
         Self { guess: person.checks.false_alarm_rate().unwrap_or(known.guess), ..known }
+    }
+
+    /// With the slope and the blind share that a mixed model found in everyone's answers.
+    pub fn with(self, fitted: &MixedParameters) -> Self {
+        Self { slope: fitted.slope, blind_share: fitted.blind_share, ..self }
     }
 
     /// The psychometric function to fit: its location alone is free.

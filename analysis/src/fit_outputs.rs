@@ -9,11 +9,14 @@ use crate::{
     Error,
     analysis::Analysis,
     figure::FIGURE_MARK,
-    fit_figure::{FIT_FIGURE, fit_figure},
+    fit_figure::FIT_FIGURE,
     outputs::{Output, write_outputs},
     people::Study,
-    report::{REPORT, REPORT_MARK, report_html},
-    staircase_figure::{STAIRCASE_FIGURE, staircase_figure},
+    population_figure::POPULATION_FIGURE,
+    psychometric_figure::PSYCHOMETRIC_FIGURE,
+    report::{Figures, REPORT, REPORT_MARK, report_html},
+    residual_figure::RESIDUAL_FIGURE,
+    staircase_figure::STAIRCASE_FIGURE,
     study_tables::{THRESHOLDS_MARK, THRESHOLDS_TABLE, TRIALS_MARK, TRIALS_TABLE, thresholds_csv, trials_csv},
 };
 
@@ -33,12 +36,11 @@ pub fn fit_study(study: &Study, folder: &Path) -> Result<Analysis, Error> {
     }
     let analysis = Analysis::of(study)?;
     let relation = analysis.relation_file(study)?.to_json()? + "\n";
-    let fit = fit_figure(&analysis)?;
-    let staircases = match study.people.first() {
-        Some(person) => staircase_figure(person, &study.protocol)?,
-        None => return Err(Error::CannotFit("the study has no person".to_owned())),
+    let figures = Figures::of(study, &analysis)?;
+    let report = report_html(study, &analysis, &figures);
+    let Some((_, staircases)) = figures.staircases.into_iter().next() else {
+        return Err(Error::CannotFit("the study has no person".to_owned()));
     };
-    let report = report_html(study, &analysis, &fit, &staircases)?;
     let output = |name, content, mark| Output { name, content, mark };
     write_outputs(
         folder,
@@ -47,7 +49,10 @@ pub fn fit_study(study: &Study, folder: &Path) -> Result<Analysis, Error> {
             output(REPORT, report, REPORT_MARK),
             output(TRIALS_TABLE, trials_csv(study)?, TRIALS_MARK),
             output(THRESHOLDS_TABLE, thresholds_csv(&analysis.thresholds)?, THRESHOLDS_MARK),
-            output(FIT_FIGURE, fit, FIGURE_MARK),
+            output(FIT_FIGURE, figures.fit, FIGURE_MARK),
+            output(PSYCHOMETRIC_FIGURE, figures.psychometric, FIGURE_MARK),
+            output(RESIDUAL_FIGURE, figures.residuals, FIGURE_MARK),
+            output(POPULATION_FIGURE, figures.population, FIGURE_MARK),
             output(STAIRCASE_FIGURE, staircases, FIGURE_MARK),
         ],
     )?;

@@ -31,7 +31,11 @@ use std::f64::consts::{LN_2, LN_10};
 
 use rayon::prelude::*;
 
-use crate::{Error, Unidentified, assumptions::Assumptions, maximum_likelihood::Count};
+use crate::{
+    Error, Unidentified,
+    assumptions::{Assumptions, DETECTION_AT_THRESHOLD},
+    maximum_likelihood::Count,
+};
 pub use interval::Interval;
 pub use profile::{Profiled, Quantity};
 
@@ -70,6 +74,16 @@ pub struct PersonAnswers {
 }
 
 impl PersonAnswers {
+    /// Probability of a right answer to what is not seen.
+    pub fn guess(&self) -> f64 {
+        self.guess
+    }
+
+    /// Right answers by intensity, ascending.
+    pub fn counts(&self) -> &[Count] {
+        &self.counts
+    }
+
     /// Gathers single answers `(x, correct)` by intensity.
     pub fn new(guess: f64, answers: impl IntoIterator<Item = (f64, bool)>) -> Self {
         let mut answers: Vec<_> = answers.into_iter().collect();
@@ -105,6 +119,26 @@ impl MixedFit {
     /// Number of people.
     pub fn people(&self) -> usize {
         self.model.people.len()
+    }
+
+    /// Answers and threshold of every person, in the order of [`MixedModel::new`]: the threshold, log10 of the ratio, is
+    /// the mean of what is probable after everyone's answers, drawn to the median where the person's own say little.
+    pub fn thresholds(&self) -> impl Iterator<Item = (&PersonAnswers, f64)> {
+        let parameters = self.parameters();
+        let of = move |answers| {
+            let z = person::marginal(answers, &parameters).z;
+            (answers, parameters.log10_ratio + parameters.between_sd * z)
+        };
+        self.model.people.iter().map(of)
+    }
+
+    /// Probability that an artifact is detected, blind trials included, this far above the person's threshold in log10 of
+    /// the intensity.
+    pub fn detection(&self, decades: f64) -> f64 {
+        let MixedParameters { slope, blind_share, .. } = self.parameters();
+        let seeing = 1.0 - blind_share;
+        let w0 = -(-DETECTION_AT_THRESHOLD / seeing).ln_1p();
+        -seeing * (-w0 * 10_f64.powf(slope * decades)).exp_m1()
     }
 
     /// A quantity with its 95 % interval.

@@ -7,17 +7,22 @@
 use std::{collections::BTreeMap, path::PathBuf};
 
 use scumble_core::SessionHash;
-use scumble_psychophysics::{Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Reason, Role};
+use scumble_psychophysics::{Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Reason, Role, Round};
 
 use crate::{
     Error,
     checks::Checks,
     load::{LoadedSession, check_kind, directory_name, load_sessions},
+    series::round_of,
 };
 
 /// The answers that one staircase of one session learned from, in the order of the trials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
+    /// Centre of the prior, radius in texels.
+    pub prior_ratio: f64,
+    /// Place of the round in the session, from 1.
+    pub round: u32,
     /// Intensity `log10(texel / radius)` as shown, and whether the answer was right.
     pub responses: Vec<(f64, bool)>,
     /// Why the experiment's convergence rule did not hold at the last trial; empty where it did.
@@ -59,10 +64,23 @@ pub struct Person {
 impl Person {
     /// The person who gave the answers of `events` in an experiment; those that do not stand are left out.
     pub fn of(code: &str, experiment: &Experiment, events: &[Event]) -> Self {
+        let mut rounds: Vec<Round> = Vec::new();
+        for track in experiment.tracks() {
+            let round = round_of(track.condition());
+            if !rounds.contains(&round) {
+                rounds.push(round);
+            }
+        }
+        let place = |round: Round| rounds.iter().position(|other| *other == round).map_or(0, |index| index as u32 + 1);
         let runs_of = |condition: &Condition| {
             let here = experiment.tracks().iter().filter(|track| track.condition() == condition);
-            here.map(|track| Run { responses: track.responses().to_vec(), unconverged: track.verdict().reasons() })
-                .collect()
+            here.map(|track| Run {
+                prior_ratio: track.prior_ratio(),
+                round: place(round_of(condition)),
+                responses: track.responses().to_vec(),
+                unconverged: track.verdict().reasons(),
+            })
+            .collect()
         };
         let conditions = experiment.protocol().all_conditions().into_iter();
         let tracks = conditions.map(|condition| Track { runs: runs_of(&condition), condition }).collect();

@@ -209,7 +209,7 @@ fn outcome(simulation: &Simulation, index: u32, truths: &[(Condition, f64)], wor
     let (experiment, events) = simulation.run(index)?;
     let person = Person::of("", &experiment, &events);
     let deviation = simulation.person_deviation_log10(index)?;
-    let thresholds = thresholds_of(&person, &simulation.protocol)
+    let thresholds = thresholds_of(&person, &simulation.protocol, |_| None)
         .iter()
         .zip(truths)
         .map(|(entry, (_, truth))| Some(entry.threshold.ok()?.log10_ratio - truth - deviation))

@@ -23,7 +23,7 @@ use crate::{
     assumptions::Assumptions,
     checks::Checks,
     estimate::{MeanOverPeople, SizePoint, exponent, intercept_px, line_through_origin},
-    mixed_model::{Interval, MixedFit, MixedModel, PersonAnswers, Quantity},
+    mixed_model::{Interval, MixedFit, MixedModel, MixedParameters, PersonAnswers, Quantity},
     people::{Person, Track},
     thresholds::{joint_threshold, thresholds_of},
 };
@@ -89,7 +89,8 @@ impl Series {
             Error::CannotFit(reason) => Error::CannotFit(format!("{name}: {reason}")),
             other => other,
         })?;
-        let people: Vec<_> = people.iter().filter_map(|person| person_in_series(round, person, protocol)).collect();
+        let people: Vec<_> =
+            people.iter().filter_map(|person| person_in_series(round, person, protocol, &fit.parameters())).collect();
         let ratios: Vec<f64> = people.iter().map(|person| person.log10_ratio).collect();
         let over_people = |statistic: fn(&[SizePoint]) -> Option<f64>| {
             let values: Vec<f64> = people.iter().filter_map(|p| statistic(&p.points)).collect();
@@ -175,11 +176,16 @@ pub(crate) fn answers_of(round: Round, person: &Person, protocol: &Protocol) -> 
     Some(PersonAnswers::new(guess, here().chain(catches)))
 }
 
-fn person_in_series(round: Round, person: &Person, protocol: &Protocol) -> Option<PersonInSeries> {
+fn person_in_series(
+    round: Round,
+    person: &Person,
+    protocol: &Protocol,
+    fitted: &MixedParameters,
+) -> Option<PersonInSeries> {
     let is_here = |track: &&Track| round_of(&track.condition) == round;
-    let known = Assumptions::of_person(person, protocol);
+    let known = Assumptions::of_person(person, protocol).with(fitted);
     let joint = joint_threshold(person.tracks.iter().filter(is_here), &known).ok()?;
-    let points = thresholds_of(person, protocol)
+    let points = thresholds_of(person, protocol, |_| Some(*fitted))
         .iter()
         .zip(&person.tracks)
         .filter(|(_, track)| is_here(track))

@@ -10,7 +10,7 @@ use crate::{
     figure::{DrawError, GREY, GRID, INK, SIZES, svg, text},
     people::{Person, Track},
     series::{round_of, series_name},
-    thresholds::{ConditionThreshold, thresholds_of},
+    thresholds::ConditionThreshold,
 };
 
 /// File name of the figure.
@@ -19,11 +19,15 @@ pub const STAIRCASE_FIGURE: &str = "staircases.svg";
 const PANEL_PX: (u32, u32) = (500, 310);
 const HEAD_PX: u32 = 64;
 
-/// Draws the tracks of `person` as SVG.
+/// Draws the tracks of `person` as SVG; `thresholds` are the person's, one per track.
 ///
 /// # Errors
 /// Only the plotting library's own.
-pub fn staircase_figure(person: &Person, protocol: &Protocol) -> Result<String, Error> {
+pub fn staircase_figure(
+    person: &Person,
+    protocol: &Protocol,
+    thresholds: &[ConditionThreshold],
+) -> Result<String, Error> {
     let rounds = protocol.rounds();
     let columns = (protocol.conditions.contrasts.len() * protocol.conditions.kernels.len()).max(1);
     let rows = rounds.len().div_ceil(columns).max(1);
@@ -32,14 +36,9 @@ pub fn staircase_figure(person: &Person, protocol: &Protocol) -> Result<String, 
     svg(STAIRCASE_FIGURE, &title, size_px, |page| {
         let (head, panels) = page.split_vertically(HEAD_PX);
         draw_key(&head, &title, protocol)?;
-        let thresholds = thresholds_of(person, protocol);
         for (panel, round) in panels.split_evenly((rows, columns)).iter().zip(rounds) {
-            let tracks: Vec<(&Track, &ConditionThreshold)> = person
-                .tracks
-                .iter()
-                .zip(&thresholds)
-                .filter(|(track, _)| round_of(&track.condition) == round)
-                .collect();
+            let tracks: Vec<(&Track, &ConditionThreshold)> =
+                person.tracks.iter().zip(thresholds).filter(|(track, _)| round_of(&track.condition) == round).collect();
             draw_panel(panel, &series_name(round, protocol), &tracks, person)?;
         }
         Ok(())

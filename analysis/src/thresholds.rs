@@ -5,17 +5,19 @@
 //! harder it is to tell an artifact from a line. The threshold is the ratio at which the artifact is seen in
 //! the share of trials that the protocol's threshold stands for, whatever the person's guess rate.
 //!
-//! The slope is not fitted: 10 to 36 adaptive answers a condition sit at one or two intensities and
-//! bound a location, not a slope. A wrong slope hardly moves the threshold, because QUEST places
-//! its trials there, but it moves every other probability of detection.
+//! The slope is not a person's own: 10 to 36 adaptive answers a condition sit at one or two intensities and
+//! bound a location, not a slope. It is everyone's, of the mixed model. A wrong slope hardly moves the threshold,
+//! because QUEST places its trials there.
 
-use scumble_psychophysics::{Condition, Protocol};
+use scumble_psychophysics::{Condition, Protocol, Round};
 
 use crate::{
     assumptions::Assumptions,
     error::Unidentified,
     maximum_likelihood::{Count, fit},
+    mixed_model::MixedParameters,
     people::{Person, Track},
+    series::round_of,
 };
 
 /// A threshold with its precision.
@@ -62,10 +64,18 @@ impl ConditionThreshold {
     }
 }
 
-/// The thresholds of a person, one per track.
-pub fn thresholds_of(person: &Person, protocol: &Protocol) -> Vec<ConditionThreshold> {
+/// The thresholds of a person, one per track; `fitted` gives the mixed model of a round, where there is one.
+pub fn thresholds_of(
+    person: &Person,
+    protocol: &Protocol,
+    fitted: impl Fn(Round) -> Option<MixedParameters>,
+) -> Vec<ConditionThreshold> {
     let known = Assumptions::of_person(person, protocol);
-    person.tracks.iter().map(|track| threshold_of(&person.code, track, &known)).collect()
+    let of_track = |track: &Track| {
+        let known = fitted(round_of(&track.condition)).map_or(known, |fitted| known.with(&fitted));
+        threshold_of(&person.code, track, &known)
+    };
+    person.tracks.iter().map(of_track).collect()
 }
 
 /// One threshold of a person for a pattern at a contrast under a kernel: all texel sizes in one likelihood, at one

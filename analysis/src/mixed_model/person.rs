@@ -27,13 +27,15 @@ pub(crate) struct Marginal {
     pub ln_likelihood: f64,
     /// Derivatives.
     pub gradient: Coordinates,
+    /// Mean of the person's `z` after the answers.
+    pub z: f64,
 }
 
 impl Marginal {
-    /// The sum over two independent people.
+    /// The sum over two independent people; their `z` means nothing then.
     pub fn plus(&self, other: &Self) -> Self {
         let gradient = std::array::from_fn(|index| self.gradient[index] + other.gradient[index]);
-        Self { ln_likelihood: self.ln_likelihood + other.ln_likelihood, gradient }
+        Self { ln_likelihood: self.ln_likelihood + other.ln_likelihood, gradient, z: self.z + other.z }
     }
 }
 
@@ -111,17 +113,18 @@ pub(crate) fn marginal(person: &PersonAnswers, shared: &MixedParameters) -> Marg
     }
     let ln_weight = |node: &Node| node.ln_weight + node.product.ln();
     let largest = nodes.iter().map(ln_weight).fold(f64::NEG_INFINITY, f64::max);
-    let (mut total, mut gradient) = (0.0, [0.0; 4]);
+    let (mut total, mut gradient, mut z) = (0.0, [0.0; 4], 0.0);
     for node in &nodes {
         let weight = (ln_weight(node) - largest).exp();
         total += weight;
+        z += weight * node.z;
         let own =
             [per_decade * node.rise, per_decade * node.rise * node.z, per_decade * node.rise_decades, node.rise_blind];
         for (sum, part) in gradient.iter_mut().zip(own) {
             *sum += weight * part;
         }
     }
-    Marginal { ln_likelihood: largest + (total * step).ln(), gradient: gradient.map(|sum| sum / total) }
+    Marginal { ln_likelihood: largest + (total * step).ln(), gradient: gradient.map(|sum| sum / total), z: z / total }
 }
 
 /// Distance of the nodes: the more answers, the narrower a person's likelihood.

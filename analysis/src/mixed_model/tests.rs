@@ -10,7 +10,7 @@ use argmin::{
 };
 
 use super::*;
-use crate::{assumptions::DETECTION_AT_THRESHOLD, estimate::MeanOverPeople};
+use crate::estimate::MeanOverPeople;
 
 const KNOWN: Assumptions = Assumptions { guess: 0.5, blind_share: 0.01, slope: 3.5 };
 
@@ -106,6 +106,10 @@ fn people_measured_without_error_give_their_mean_and_students_interval() {
     // Maximum likelihood divides by the number of people, not by one less.
     let expected_sd = mean.standard_deviation * (7.0_f64 / 8.0).sqrt();
     assert!((fit.parameters().between_sd - expected_sd).abs() < 1e-3, "{:?}", fit.parameters());
+    for ((_, found), expected) in fit.thresholds().zip(thresholds) {
+        assert!((found - expected).abs() < 1e-3, "{found} is not {expected}");
+    }
+    assert!((fit.detection(0.0) - DETECTION_AT_THRESHOLD).abs() < 1e-12, "that is what the threshold stands for");
     assert!((fit.parameters().slope - 3.5).abs() < 0.02 && (fit.parameters().blind_share - 0.01).abs() < 0.002);
 }
 

@@ -65,6 +65,7 @@ pub use light::Light;
 pub use policy::{Demand, Ladder, Size, SizePolicy, size_achieved};
 pub use relation::{RATIO_MAX, ROUNDING_SLACK, Relation, whole_texels};
 pub use relation_file::{
-    ConditionEstimate, Estimate, FormTests, NullTest, PopulationPoint, RelationFile, SCHEMA, SessionHash,
+    ConditionEstimate, Estimate, FormTests, ModelParameters, NullTest, OtherEstimator, PopulationPoint, RelationFile,
+    SCHEMA, SessionHash,
 };
 pub use settings::{Filter, Settings, pixel_footprint_world};

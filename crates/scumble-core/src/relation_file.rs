@@ -29,9 +29,18 @@ pub struct RelationFile {
     /// Tests of the relation's form r = c a^g + b.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tests: Option<FormTests>,
+    /// The model that the ratio comes from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<ModelParameters>,
+    /// The same ratio by other estimators.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub other_estimators: Vec<OtherEstimator>,
     /// Thresholds by pattern and contrast.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub conditions: Vec<ConditionEstimate>,
+    /// Name of the protocol that the people followed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub protocol: Option<String>,
     /// Number of people.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub people: Option<u64>,
@@ -75,6 +84,26 @@ pub struct FormTests {
     pub intercept: NullTest,
     /// g of r = c a^g, against 1.
     pub exponent: NullTest,
+}
+
+/// People as the fit describes them: log-normal thresholds, Weibull psychometric functions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModelParameters {
+    /// Standard deviation between people, log10 of the ratio.
+    pub between_sd_log10: f64,
+    /// Slope of the psychometric function per log10 unit.
+    pub slope_per_log10: f64,
+    /// Share of trials answered blindly.
+    pub blind_share: f64,
+}
+
+/// The ratio by another estimator than the file's own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OtherEstimator {
+    /// `mean_of_logarithms`, of thresholds fitted to one person at a time; `line_through_origin` of the mean radii.
+    pub name: String,
+    /// Filter radius in texels.
+    pub ratio: Estimate,
 }
 
 /// A two-sided test of a null hypothesis.
@@ -123,7 +152,10 @@ impl RelationFile {
             population: Vec::new(),
             kernel: Some("disc".to_owned()),
             tests: None,
+            model: None,
+            other_estimators: Vec::new(),
             conditions: Vec::new(),
+            protocol: None,
             people: None,
             trials: None,
             sessions: Vec::new(),

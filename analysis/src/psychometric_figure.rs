@@ -1,0 +1,133 @@
+//! Psychometric functions with the answers they stand for, one panel a series: detection against the ratio shown, relative to
+//! the person's own threshold.
+//!
+//! Answers of everyone are ordered by that relative ratio and cut into groups of equal number; a dot stands at a group's mean
+//! with the binomial standard error. Guessing is taken out per person: `(share right - g) / (1 - g)`.
+
+use plotters::prelude::*;
+
+use crate::{
+    Error,
+    analysis::Analysis,
+    figure::{DrawError, GREY, GRID, INK, pattern_color, svg, text},
+    panels::{Area, draw_foot, page_px, split},
+    series::Series,
+};
+
+/// File name of the figure.
+pub const PSYCHOMETRIC_FIGURE: &str = "psychometric.svg";
+
+/// Groups of answers in a panel.
+const GROUPS: usize = 12;
+
+/// Ends of the axis: ratios relative to the threshold.
+const RELATIVE: [f64; 2] = [0.4, 2.5];
+
+/// Draws the figure as SVG.
+///
+/// # Errors
+/// Only the plotting library's own.
+pub fn psychometric_figure(analysis: &Analysis) -> Result<String, Error> {
+    let count = analysis.series.len();
+    svg(PSYCHOMETRIC_FIGURE, "Psychometric functions", page_px(count), |page| {
+        let (panels, foot) = split(page, count);
+        for (panel, series) in panels.iter().zip(&analysis.series) {
+            draw_panel(panel, series)?;
+        }
+        let lines = [
+            "line: Weibull function with everyone's slope · dots: answers in groups of equal number, guesses taken out, one \
+             standard error",
+            "ring: threshold, where the artifact is seen on 64 % of the trials",
+        ];
+        draw_foot(&foot, &lines)
+    })
+}
+
+/// Answers that lie together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Group {
+    /// Geometric mean of the ratio shown over the person's threshold.
+    pub relative: f64,
+    /// Share detected, guesses taken out; below 0 where fewer are right than guessing gives.
+    pub detected: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+}
+
+/// The groups of a series, by falling ratio.
+pub(crate) fn groups(series: &Series) -> Vec<Group> {
+    // (log10 of intensity over threshold, guess rate, right, answers).
+    let mut counts: Vec<(f64, f64, f64, f64)> = Vec::new();
+    for (answers, threshold) in series.fit.thresholds() {
+        counts.extend(answers.counts().iter().map(|c| (c.x + threshold, answers.guess(), c.correct, c.total)));
+    }
+    counts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let all: f64 = counts.iter().map(|count| count.3).sum();
+    let mut cut: Vec<Vec<(f64, f64, f64, f64)>> = vec![Vec::new(); GROUPS];
+    let mut before = 0.0;
+    for count in counts {
+        let index = ((before + count.3 / 2.0) / all * GROUPS as f64) as usize;
+        cut[index.min(GROUPS - 1)].push(count);
+        before += count.3;
+    }
+    cut.iter().filter(|group| !group.is_empty()).map(|group| Group::of(group)).collect()
+}
+
+impl Group {
+    fn of(counts: &[(f64, f64, f64, f64)]) -> Self {
+        let total: f64 = counts.iter().map(|count| count.3).sum();
+        let mean = |value: &dyn Fn(&(f64, f64, f64, f64)) -> f64| counts.iter().map(value).sum::<f64>() / total;
+        let x = mean(&|(x, _, _, n)| x * n);
+        let guess = mean(&|(_, guess, _, n)| guess * n);
+        let right = mean(&|(_, _, right, _)| *right);
+        // Agresti and Coull's share keeps the error of "all right" from being none.
+        let share = (right * total + 2.0) / (total + 4.0);
+        Self {
+            relative: 10_f64.powf(-x),
+            detected: (right - guess) / (1.0 - guess),
+            standard_error: (share * (1.0 - share) / total).sqrt() / (1.0 - guess),
+        }
+    }
+}
+
+fn draw_panel(panel: &Area<'_>, series: &Series) -> Result<(), DrawError> {
+    let color = pattern_color(series.round.pattern);
+    let [left, right] = RELATIVE;
+    let mut chart = ChartBuilder::on(panel)
+        .margin(12)
+        .caption(&series.name, text(17, INK))
+        .x_label_area_size(42)
+        .y_label_area_size(56)
+        .build_cartesian_2d(
+            (left..right).log_scale().with_key_points(vec![0.4, 0.5, 0.7, 1.0, 1.4, 2.0, 2.5]),
+            -0.2..1.1,
+        )?;
+    chart
+        .configure_mesh()
+        .disable_x_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(GRID)
+        .axis_style(GREY)
+        .x_desc("ratio shown / threshold of the person")
+        .y_desc("artifacts detected")
+        .y_labels(7)
+        .x_label_formatter(&|x| format!("{x}"))
+        .y_label_formatter(&|y| format!("{:.0} %", 100.0 * y))
+        .label_style(text(14, INK))
+        .axis_desc_style(text(15, INK))
+        .draw()?;
+    let curve = (0..=120).map(|step| {
+        let relative = left * (right / left).powf(f64::from(step) / 120.0);
+        (relative, series.fit.detection(-relative.log10()))
+    });
+    chart.draw_series(LineSeries::new(curve, color.stroke_width(2)))?;
+    for Group { relative, detected, standard_error } in groups(series) {
+        let x = relative.clamp(left, right);
+        let end = |sign: f64| (x, (detected + sign * standard_error).clamp(-0.2, 1.1));
+        chart.draw_series([PathElement::new([end(-1.0), end(1.0)], INK.stroke_width(1))])?;
+        chart.draw_series([Circle::new((x, detected.clamp(-0.2, 1.1)), 4, INK.filled())])?;
+    }
+    let threshold = (1.0, series.fit.detection(0.0));
+    chart.draw_series([Circle::new(threshold, 7, color.stroke_width(2))])?;
+    Ok(())
+}
