@@ -66,7 +66,7 @@ impl Analysis {
         let fitted =
             |round: Round| series.iter().find(|series| series.round == round).map(|s: &Series| s.fit.parameters());
         let thresholds: Vec<_> =
-            study.people.iter().flat_map(|person| thresholds_of(person, protocol, &fitted)).collect();
+            study.people.iter().flat_map(|person| thresholds_of(person, protocol, fitted)).collect();
         exclusions.extend(left_out(&thresholds, protocol));
         let no_series = || Error::CannotFit("the protocol has no round".to_owned());
         let of_kernel = |index: &usize| Some(&series[*index].round.kernel) == protocol.conditions.kernels.first();

@@ -106,3 +106,55 @@ impl Effect {
         self.log10_factor.p_value(0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use scumble_stimuli::Pattern;
+
+    use super::*;
+    use crate::{Analysis, Simulation};
+    use scumble_psychophysics::{Fatigue, ObserverModel, WeibullObserver};
+
+    fn simulated(fatigue: Fatigue) -> Analysis {
+        let median = ObserverModel::Weibull(WeibullObserver { fatigue, ..Default::default() });
+        let protocol = Protocol::two_alternative();
+        let simulation = Simulation { protocol, observers: 16, seed: 11, median, between_sd_log10: 0.1 };
+        Analysis::of(&simulation.study().unwrap()).unwrap()
+    }
+
+    fn holds(effect: &Effect, log10_factor: f64) -> bool {
+        let [low, high] = effect.log10_factor.ci95;
+        low <= log10_factor && log10_factor <= high
+    }
+
+    #[test]
+    fn effects_that_people_were_given_are_found_and_others_are_not() {
+        let analysis = simulated(Fatigue::default());
+        let [pattern, contrast, round] = &analysis.effects[..] else { panic!("{:?}", analysis.effects) };
+        assert_eq!(pattern.name, "step against stair");
+        // The simulated median: 2.5 for the stair, 3.47 for the step; 0.95 of it at half the contrast.
+        assert!(holds(pattern, (3.47_f64 / 2.5).log10()) && pattern.p_value() < 1e-3, "{pattern:?}");
+        assert!(holds(contrast, 0.95_f64.log10()), "{contrast:?}");
+        assert!(holds(round, 0.0), "{round:?}");
+    }
+
+    #[test]
+    fn people_who_learn_have_falling_ratios_from_round_to_round() {
+        let fall = 0.2;
+        let analysis = simulated(Fatigue { threshold_fall_log10_per_100_trials: fall, ..Fatigue::default() });
+        let round = analysis.effects.last().unwrap();
+        // A round has 60 trials or so.
+        assert!((round.log10_factor.mean + 0.6 * fall).abs() < 0.05 && round.p_value() < 0.01, "{round:?}");
+    }
+
+    #[test]
+    fn a_person_without_one_of_the_series_is_not_in_a_comparison() {
+        let round = |pattern, contrast| Round { pattern, contrast, kernel: scumble_stimuli::Kernel::NAMED[0].1 };
+        let cell = |pattern, contrast, log10_ratio| Cell { round: round(pattern, contrast), place: 1.0, log10_ratio };
+        let cells = [cell(Pattern::Stair, 1.0, 0.4), cell(Pattern::Stair, 0.5, 0.3), cell(Pattern::Step, 1.0, 0.6)];
+        let of = |pattern| move |round: &Round| round.pattern == pattern;
+        let found = difference(&cells, of(Pattern::Step), of(Pattern::Stair)).unwrap();
+        assert!((found - 0.25).abs() < 1e-12);
+        assert_eq!(difference(&cells, of(Pattern::DoubleStep), of(Pattern::Stair)), None);
+    }
+}

@@ -5,7 +5,7 @@ use plotters::{coord::Shift, prelude::*};
 use crate::figure::{DrawError, GREY, text};
 
 /// Size of a panel.
-pub(crate) const PANEL_PX: (u32, u32) = (440, 380);
+pub(crate) const PANEL_PX: (u32, u32) = (460, 340);
 
 /// Height of the lines below the panels, each of 22 pixels.
 pub(crate) const FOOT_PX: u32 = 60;
@@ -13,27 +13,22 @@ pub(crate) const FOOT_PX: u32 = 60;
 /// A part of a page.
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Most panels in a row.
-const COLUMNS_MOST: usize = 4;
-
-/// Rows and columns of `count` panels.
-pub(crate) fn rows_and_columns(count: usize) -> (usize, usize) {
-    let columns = if count > COLUMNS_MOST { count.div_ceil(2).min(COLUMNS_MOST) } else { count.max(1) };
+/// Rows and columns of `count` panels: two in a row fill a page of text; many stand in threes.
+fn rows_and_columns(count: usize) -> (usize, usize) {
+    let columns = if count > 4 { 3 } else { 2 };
     (count.div_ceil(columns).max(1), columns)
 }
 
 /// Size of the page of `count` panels.
 pub(crate) fn page_px(count: usize) -> (u32, u32) {
     let (rows, columns) = rows_and_columns(count);
-    // Two panels' width for the lines below, whatever the number of panels.
-    (PANEL_PX.0 * columns.max(2) as u32, PANEL_PX.1 * rows as u32 + FOOT_PX)
+    (PANEL_PX.0 * columns as u32, PANEL_PX.1 * rows as u32 + FOOT_PX)
 }
 
 /// The panels of a page, and its foot.
 pub(crate) fn split<'a>(page: &Area<'a>, count: usize) -> (Vec<Area<'a>>, Area<'a>) {
     let (rows, columns) = rows_and_columns(count);
     let (panels, foot) = page.split_vertically(PANEL_PX.1 * rows as u32);
-    let (panels, _) = panels.split_horizontally(PANEL_PX.0 * columns as u32);
     (panels.split_evenly((rows, columns)), foot)
 }
 

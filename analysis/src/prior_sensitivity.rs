@@ -63,3 +63,33 @@ fn under_prior(
     let ratio = 10_f64.powf(means.iter().sum::<f64>() / means.len() as f64);
     Ok(UnderPrior { centre_factor, sd_factor, ratio })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Analysis, Simulation};
+    use scumble_psychophysics::ObserverModel;
+
+    #[test]
+    fn the_prior_as_it_was_gives_the_staircases_estimates_and_a_shifted_one_moves_them_its_way() {
+        let protocol = Protocol::two_alternative();
+        let median = ObserverModel::default().with_ratio(6.0).unwrap();
+        let simulation = Simulation { protocol, observers: 3, seed: 2, median, between_sd_log10: 0.1 };
+        let analysis = Analysis::of(&simulation.study().unwrap()).unwrap();
+        let [own, low, high, narrow, wide] = analysis.under_priors[..] else { panic!("five priors") };
+
+        let worst = analysis.worst().round;
+        let (mut sum, mut people) = (0.0, 0.0);
+        for index in 0..3 {
+            let (experiment, _) = simulation.run(index).unwrap();
+            let here = experiment.tracks().iter().filter(|track| round_of(track.condition()) == worst);
+            let means: Vec<f64> = here.map(|track| track.staircase().mean()).collect();
+            sum -= means.iter().sum::<f64>() / means.len() as f64;
+            people += 1.0;
+        }
+        assert!((own.ratio - 10_f64.powf(sum / people)).abs() < 1e-9);
+        assert!(low.ratio < own.ratio && own.ratio < high.ratio);
+        // The prior's centre, 3, is pulled to by the narrow prior more than by the wide one.
+        assert!((narrow.ratio - 3.0).abs() < (wide.ratio - 3.0).abs());
+    }
+}

@@ -54,32 +54,43 @@ pub(crate) struct Group {
     pub standard_error: f64,
 }
 
+/// Right answers at one distance from the threshold.
+#[derive(Debug, Clone, Copy)]
+struct Answers {
+    /// log10 of the intensity over the person's threshold.
+    x: f64,
+    guess: f64,
+    right: f64,
+    total: f64,
+}
+
 /// The groups of a series, by falling ratio.
 pub(crate) fn groups(series: &Series) -> Vec<Group> {
-    // (log10 of intensity over threshold, guess rate, right, answers).
-    let mut counts: Vec<(f64, f64, f64, f64)> = Vec::new();
-    for (answers, threshold) in series.fit.thresholds() {
-        counts.extend(answers.counts().iter().map(|c| (c.x + threshold, answers.guess(), c.correct, c.total)));
+    let mut all: Vec<Answers> = Vec::new();
+    for (person, threshold) in series.fit.thresholds() {
+        let guess = person.guess();
+        let counts = person.counts().iter();
+        all.extend(counts.map(|c| Answers { x: c.x + threshold, guess, right: c.correct, total: c.total }));
     }
-    counts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let all: f64 = counts.iter().map(|count| count.3).sum();
-    let mut cut: Vec<Vec<(f64, f64, f64, f64)>> = vec![Vec::new(); GROUPS];
+    all.sort_by(|a, b| a.x.total_cmp(&b.x));
+    let count: f64 = all.iter().map(|answers| answers.total).sum();
+    let mut cut: Vec<Vec<Answers>> = vec![Vec::new(); GROUPS];
     let mut before = 0.0;
-    for count in counts {
-        let index = ((before + count.3 / 2.0) / all * GROUPS as f64) as usize;
-        cut[index.min(GROUPS - 1)].push(count);
-        before += count.3;
+    for answers in all {
+        let index = ((before + answers.total / 2.0) / count * GROUPS as f64) as usize;
+        cut[index.min(GROUPS - 1)].push(answers);
+        before += answers.total;
     }
     cut.iter().filter(|group| !group.is_empty()).map(|group| Group::of(group)).collect()
 }
 
 impl Group {
-    fn of(counts: &[(f64, f64, f64, f64)]) -> Self {
-        let total: f64 = counts.iter().map(|count| count.3).sum();
-        let mean = |value: &dyn Fn(&(f64, f64, f64, f64)) -> f64| counts.iter().map(value).sum::<f64>() / total;
-        let x = mean(&|(x, _, _, n)| x * n);
-        let guess = mean(&|(_, guess, _, n)| guess * n);
-        let right = mean(&|(_, _, right, _)| *right);
+    fn of(group: &[Answers]) -> Self {
+        let total: f64 = group.iter().map(|answers| answers.total).sum();
+        let mean = |value: fn(&Answers) -> f64| group.iter().map(value).sum::<f64>() / total;
+        let x = mean(|answers| answers.x * answers.total);
+        let guess = mean(|answers| answers.guess * answers.total);
+        let right = mean(|answers| answers.right);
         // Agresti and Coull's share keeps the error of "all right" from being none.
         let share = (right * total + 2.0) / (total + 4.0);
         Self {
@@ -130,4 +141,19 @@ fn draw_panel(panel: &Area<'_>, series: &Series) -> Result<(), DrawError> {
     let threshold = (1.0, series.fit.detection(0.0));
     chart.draw_series([Circle::new(threshold, 7, color.stroke_width(2))])?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_group_takes_guesses_out_and_stands_at_its_mean() {
+        let answers = |x, right| Answers { x, guess: 0.5, right, total: 10.0 };
+        let group = Group::of(&[answers(-0.1, 9.0), answers(0.1, 6.0)]);
+        assert!((group.relative - 1.0).abs() < 1e-12);
+        assert!((group.detected - 0.5).abs() < 1e-12, "15 of 20 right is half detected");
+        let share = 17.0_f64 / 24.0;
+        assert!((group.standard_error - 2.0 * (share * (1.0 - share) / 20.0).sqrt()).abs() < 1e-12);
+    }
 }

@@ -74,6 +74,7 @@ pub fn report_html(study: &Study, analysis: &Analysis, figures: &Figures) -> Str
         viewers::population(analysis),
         figures.population.clone(),
         format!("<h2>Psychometric functions</h2>\n{}\n", figures.psychometric),
+        relation::people_of_each(analysis),
         people::people(analysis),
         people::detection(study),
         people::tracks(study, &figures.staircases),

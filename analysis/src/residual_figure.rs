@@ -16,7 +16,7 @@ use crate::{
 pub const RESIDUAL_FIGURE: &str = "residuals.svg";
 
 /// Ends of the axis: a factor either way.
-const FACTORS: [f64; 2] = [0.25, 4.0];
+const FACTORS: [f64; 2] = [0.4, 2.5];
 
 /// Draws the figure as SVG.
 ///
@@ -59,7 +59,7 @@ fn draw_panel(panel: &Area<'_>, series: &Series) -> Result<(), DrawError> {
         .y_label_area_size(56)
         .build_cartesian_2d(
             ends.clone().log_scale().with_key_points(series.texels_px.clone()),
-            (low..high).log_scale().with_key_points(vec![0.25, 0.5, 0.7, 1.0, 1.4, 2.0, 4.0]),
+            (low..high).log_scale().with_key_points(vec![0.4, 0.5, 0.7, 1.0, 1.4, 2.0, 2.5]),
         )?;
     chart
         .configure_mesh()

@@ -128,7 +128,17 @@ fn fit_writes_a_relation_that_the_renderer_reads_and_replaces_its_own_files() {
     }
     let mut names: Vec<_> = fs::read_dir(out.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
     names.sort();
-    let expected = ["fit.svg", "relation.json", "report.html", "staircases.svg", "thresholds.csv", "trials.csv"];
+    let expected = [
+        "fit.svg",
+        "population.svg",
+        "psychometric.svg",
+        "relation.json",
+        "report.html",
+        "residuals.svg",
+        "staircases.svg",
+        "thresholds.csv",
+        "trials.csv",
+    ];
     assert_eq!(names, expected);
 }
 

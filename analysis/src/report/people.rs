@@ -92,7 +92,7 @@ pub(super) fn tracks(study: &Study, figures: &[(String, String)]) -> String {
     }
     let others = study.people.len() - figures.len();
     if others > 0 {
-        _ = write!(page, "<p class=\"note\">The tracks of {others} more people are in trials.csv.</p>\n");
+        _ = writeln!(page, "<p class=\"note\">The tracks of {others} more people are in trials.csv.</p>");
     }
     page
 }
