@@ -37,6 +37,35 @@ pub enum Unidentified {
         /// That end.
         slope: f64,
     },
+    /// A count is none.
+    #[error(
+        "{correct} of {total} correct at intensity {x} is no count; allowed is a finite intensity and 0 <= correct <= total"
+    )]
+    Count {
+        /// Intensity.
+        x: f64,
+        /// Correct answers.
+        correct: f64,
+        /// Answers.
+        total: f64,
+    },
+    /// Guess and lapse rate leave no room for a function.
+    #[error("the guess rate is {guess} and the lapse rate up to {lapse}; allowed is at least 0 each, together below 1")]
+    Rates {
+        /// Guess rate.
+        guess: f64,
+        /// Largest lapse rate.
+        lapse: f64,
+    },
+    /// The given slope is none.
+    #[error("the slope is {slope} per decade; allowed is a finite number above 0")]
+    SlopeRange {
+        /// The slope.
+        slope: f64,
+    },
+    /// Every function gives the answers probability 0.
+    #[error("no function makes such answers possible; allowed is a guess or lapse rate above 0")]
+    Impossible,
     /// The information matrix is singular.
     #[error("the likelihood is flat: its parameters cannot be told apart")]
     FlatLikelihood,

@@ -60,8 +60,10 @@
 
 mod analysis;
 mod assumptions;
+mod binomial;
 mod checks;
 mod count_table;
+mod crossing;
 mod effects;
 mod error;
 mod estimate;
@@ -74,12 +76,14 @@ mod maximum_likelihood;
 mod mixed_model;
 mod outputs;
 mod panels;
+mod parametric_bootstrap;
 mod people;
 mod plan;
 mod plan_text;
 mod population;
 mod population_figure;
 mod prior_sensitivity;
+mod profile_likelihood;
 mod psychometric_figure;
 mod quest_table;
 mod reach;
@@ -91,13 +95,14 @@ mod simulation;
 mod staircase_figure;
 mod study_tables;
 mod table;
+mod threshold_report;
 mod thresholds;
 mod weibull;
 
 pub use analysis::{Analysis, SOFTWARE};
 pub use assumptions::Assumptions;
 pub use checks::Checks;
-pub use count_table::{CountTableFit, fit_count_table, read_count_table};
+pub use count_table::{CORRECT_AT_THRESHOLD, CountTableFit, fit_count_table, read_count_table};
 pub use effects::Effect;
 pub use error::{Error, Unidentified};
 pub use estimate::{MeanOverPeople, SizePoint, exponent, intercept_px, line, line_through_origin};
@@ -106,13 +111,15 @@ pub use fit_figure::{FIT_FIGURE, fit_figure};
 pub use fit_outputs::{RELATION, fit_study};
 pub use load::{LoadedSession, session_directories};
 pub use maximum_likelihood::{
-    Count, Fitted, LAPSE_LARGEST, LIKELIHOOD_DROP_95, Model, Parameter, SLOPE_RANGE, fit, log_likelihood,
+    Count, Fitted, LAPSE_LARGEST, LIKELIHOOD_DROP_95, Model, Parameter, SLOPE_RANGE, deviance_residuals, fit,
+    log_likelihood, most_likely,
 };
 pub use mixed_model::{
     BLIND_PRIOR_SD_LOGIT, Interval, MixedFit, MixedModel, MixedParameters, PersonAnswers, Profiled, Quantity,
     SLOPE_PRIOR_SD_LN,
 };
 pub use outputs::{Output, write_outputs};
+pub use parametric_bootstrap::{RESAMPLES_ALLOWED, Resampling};
 pub use people::{Person, Run, Study, Track};
 pub use plan::{Accuracy, COHORTS, IntervalForecast, Plan, SeriesForecast, Spread, Staircases};
 pub use population::{DETECTIONS, Population, PopulationPoint, VIEWERS};
@@ -128,5 +135,6 @@ pub use series::{OriginLine, PersonInSeries, Series};
 pub use simulation::{Simulation, with_false_alarms, with_slope};
 pub use staircase_figure::{STAIRCASE_FIGURE, staircase_figure};
 pub use study_tables::{THRESHOLDS_TABLE, TRIALS_TABLE, thresholds_csv, trials_csv};
+pub use threshold_report::{Intervals, LevelFit, ThresholdReport};
 pub use thresholds::{ConditionThreshold, Threshold, joint_threshold, thresholds_of};
 pub use weibull::Weibull;

@@ -10,9 +10,9 @@ use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use scumble_analysis::{
-    Export, Parameter, Plan, Simulation, Study, fit_count_table, fit_study, hashed_pictures, read_count_table,
-    read_quest_config, read_responses, replay_session, session_directories, with_false_alarms, with_slope,
-    write_summaries,
+    Export, Parameter, Plan, Resampling, Simulation, Study, ThresholdReport, fit_study, hashed_pictures,
+    read_count_table, read_quest_config, read_responses, replay_session, session_directories, with_false_alarms,
+    with_slope, write_summaries,
 };
 use scumble_psychophysics::{ObserverModel, Protocol, Session, read_session};
 
@@ -166,13 +166,27 @@ names of the files.")]
         #[arg(long)]
         responses: PathBuf,
     },
-    /// Fits a Weibull function to a table of correct answers and prints JSON.
+    /// Fits a Weibull function to a table of correct answers and prints JSON: threshold, slope, intervals, fit.
     #[command(after_help = "Example:
   printf 'level,n_correct,n_total\\n0.5,26,50\\n1,33,50\\n2,45,50\\n4,49,50\\n' > counts.csv
   scumble-analysis threshold --data counts.csv --guess 0.5 --lapse 0.01
 
 The function is p(x) = guess + (1 - guess - lapse)(1 - exp(-10^(slope_beta (x - threshold_t)))) with
-x = log10(level). x82 is the x of 82 % correct, nll the negative log likelihood.")]
+x = log10(level). Rows of one level count as one.
+
+  threshold_t, slope_beta, lapse   the most likely values, with standard errors se_t, se_beta, se_lapse
+  x82                              the x of 82 % correct
+  nll, deviance                    negative log likelihood; its doubled distance from a perfect fit
+  deviance_p                       probability of such a deviance if the function is right: below 0.05 it
+                                   is doubtful (a wrong guess rate, lapses, learning). By bootstrap
+  ci95_profile, ci95_bootstrap     95 % intervals by profile likelihood and by parametric bootstrap.
+                                   Report one; where they differ much, the data are few
+  levels                           p of the fit and deviance residual of each level: beyond +-2 a level
+                                   does not fit
+  notes                            a sentence for each end that the data do not bound, which is null
+
+Exit status 1 with the reason where the table holds no estimate at all: one level, all answers correct,
+a jump from guessing to certainty. Equal tables, options and seeds give equal numbers on every machine.")]
     Threshold {
         /// CSV with the columns level,n_correct,n_total.
         #[arg(long)]
@@ -183,6 +197,12 @@ x = log10(level). x82 is the x of 82 % correct, nll the negative log likelihood.
         /// Lapse rate, or the word free.
         #[arg(long, default_value = "0.01", value_parser = lapse)]
         lapse: Parameter,
+        /// Tables that the bootstrap draws and fits, 100 to 1000000.
+        #[arg(long, default_value_t = Resampling::default().resamples)]
+        resamples: u32,
+        /// Every draw of the bootstrap follows from it.
+        #[arg(long, default_value_t = Resampling::default().seed)]
+        seed: u64,
     },
 }
 
@@ -260,14 +280,21 @@ fn run(command: Command) -> anyhow::Result<()> {
             let (parameters, answers) = (read_quest_config(&config)?, read_responses(&responses)?);
             Ok(write_summaries(&parameters, &answers, [&config, &responses], stdout().lock())?)
         }
-        Command::Threshold { data, guess, lapse } => {
-            let counts = read_count_table(&data)?;
-            let place = || data.display().to_string();
-            let fitted = fit_count_table(&counts, guess, lapse).with_context(place)?;
-            println!("{}", serde_json::to_string_pretty(&fitted)?);
-            Ok(())
+        Command::Threshold { data, guess, lapse, resamples, seed } => {
+            threshold(&data, guess, lapse, &Resampling { resamples, seed })
         }
     }
+}
+
+/// Fits a table behind a progress bar of the bootstrap and prints the report.
+fn threshold(data: &Path, guess: f64, lapse: Parameter, resampling: &Resampling) -> anyhow::Result<()> {
+    let counts = read_count_table(data)?;
+    let bar = progress_bar(resampling.resamples.into(), "tables")?;
+    let report = ThresholdReport::of(&counts, guess, lapse, resampling, || bar.inc(1));
+    bar.finish_and_clear();
+    let report = report.with_context(|| data.display().to_string())?;
+    println!("{}", serde_json::to_string_pretty(&report)?);
+    Ok(())
 }
 
 /// Prints the result and where the files are; notices go to the error stream.

@@ -1,17 +1,24 @@
 //! Maximum-likelihood fit of a Weibull psychometric function to counts of correct answers.
 //!
 //! Minimises `-ln L = -sum k ln p(x) + (n - k) ln(1 - p(x))` over the location, and over slope and lapse where these
-//! are free (the binomial coefficient is left out). Start: the best point of a coarse grid. Then Newton steps with the
-//! analytic Hessian, damped until the likelihood grows (Levenberg). Standard errors come from the inverse of the
-//! Hessian at the maximum (observed information).
+//! are free (the binomial coefficient is left out). Standard errors come from the inverse of the Hessian at the maximum
+//! (observed information).
 //!
 //! A likelihood can keep growing towards `t -> -inf` (everything seen), `t -> +inf` (everything guessed) or `b -> inf`
 //! (a jump): the data do not bound the parameter and there is no estimate. The fit says which of these happened instead
 //! of returning the edge of its search range.
 
-use std::f64::consts::LN_10;
+mod deviance;
+mod place;
+mod search;
 
-use nalgebra::{DMatrix, DVector};
+pub(crate) use deviance::{constant_deviance, deviance};
+pub use deviance::{deviance_residuals, log_likelihood};
+pub(crate) use place::Place;
+pub(crate) use search::{Maximum, Search};
+
+use deviance::constant_log_likelihood;
+use place::{LAPSE, PLACE, SLOPE};
 
 use crate::{error::Unidentified, weibull::Weibull};
 
@@ -67,44 +74,63 @@ pub struct Fitted {
     pub deviance: f64,
     /// Standard error of the location, log10 units.
     pub location_se: f64,
-    /// Standard error of the slope, where it was free.
+    /// Standard error of the slope, where it was free and not at an end of its range.
     pub slope_se: Option<f64>,
     /// Standard error of the lapse rate, where it was free and not at an end of its range.
     pub lapse_se: Option<f64>,
 }
 
-/// Fits `model` to `counts` (finite intensities, `0 <= correct <= total`, `0 < guess + lapse < 1`).
+/// Fits `model` to `counts` and refuses what the data do not bound on both sides.
 ///
 /// # Errors
-/// [`Unidentified`] when the data do not bound a parameter. The location counts as bounded when both
+/// [`Unidentified`] when the data do not bound a parameter, or are no counts. The location counts as bounded when both
 /// limits, everything seen and everything guessed, lie outside of its 95 % likelihood-ratio interval;
 /// a free slope when both ends of [`SLOPE_RANGE`] do.
 pub fn fit(counts: &[Count], model: &Model) -> Result<Fitted, Unidentified> {
-    let counts: Vec<Count> = counts.iter().copied().filter(|count| count.total > 0.0).collect();
+    fit_within(counts, model, LIKELIHOOD_DROP_95)
+}
+
+/// The function of largest likelihood, whether or not its 95 % interval ends on both sides.
+///
+/// # Errors
+/// [`Unidentified`] when there is none: a limit, everything seen, everything guessed or an end of [`SLOPE_RANGE`], is
+/// just as likely; or the data are no counts.
+pub fn most_likely(counts: &[Count], model: &Model) -> Result<Fitted, Unidentified> {
+    fit_within(counts, model, 0.0)
+}
+
+/// Fits, and refuses where a limit is less than `drop` nats below the maximum.
+fn fit_within(counts: &[Count], model: &Model, drop: f64) -> Result<Fitted, Unidentified> {
+    let counts: Vec<Count> = counts.iter().copied().filter(|count| count.total != 0.0).collect();
+    check_model(model)?;
     check_answers(&counts, model)?;
-
-    let start = best_of_grid(&counts, model);
-    let mut best = climb(&counts, start, free_parameters(model));
-
-    // A lapse rate that runs to an end of its range stays there, and the others are found again.
-    let mut free = free_parameters(model);
-    if free[LAPSE] && (best.lapse <= 0.0 || best.lapse >= LAPSE_LARGEST) {
-        free[LAPSE] = false;
-        best = climb(&counts, best, free);
+    let search = Search::of(model);
+    let top = search.highest(&counts, None).ok_or(Unidentified::Impossible)?;
+    if let Some(limit) = Limit::of(&counts, model, &top, drop) {
+        return Err(limit.into());
     }
-    check_bounded(&counts, &best, model)?;
-    summarise(&counts, best, free).ok_or(Unidentified::FlatLikelihood)
+    summarise(&counts, &search, &top).ok_or(Unidentified::FlatLikelihood)
 }
 
-/// Index of the lapse rate in the parameter vector (location, slope, lapse).
-const LAPSE: usize = 2;
-
-fn free_parameters(model: &Model) -> [bool; 3] {
-    [true, model.slope == Parameter::Free, model.lapse == Parameter::Free]
+fn check_model(model: &Model) -> Result<(), Unidentified> {
+    let Model { guess, lapse, slope } = *model;
+    let lapse = if let Parameter::Fixed(lapse) = lapse { lapse } else { LAPSE_LARGEST };
+    if !(guess >= 0.0 && lapse >= 0.0 && guess + lapse < 1.0) {
+        return Err(Unidentified::Rates { guess, lapse });
+    }
+    match slope {
+        Parameter::Fixed(slope) if !(slope > 0.0 && slope.is_finite()) => Err(Unidentified::SlopeRange { slope }),
+        _ => Ok(()),
+    }
 }
 
-/// Refuses data without two kinds of answers, or without two levels for a free slope.
+/// Refuses what are no counts, data without two kinds of answers, or without two levels for a free slope.
 fn check_answers(counts: &[Count], model: &Model) -> Result<(), Unidentified> {
+    for &Count { x, correct, total } in counts {
+        if !(x.is_finite() && correct >= 0.0 && correct <= total && total.is_finite()) {
+            return Err(Unidentified::Count { x, correct, total });
+        }
+    }
     let total: f64 = counts.iter().map(|count| count.total).sum();
     let correct: f64 = counts.iter().map(|count| count.correct).sum();
     if total == 0.0 {
@@ -123,174 +149,80 @@ fn check_answers(counts: &[Count], model: &Model) -> Result<(), Unidentified> {
     Ok(())
 }
 
-/// The most likely of a coarse set of functions: locations every 0.05 from one decade below the data to one above, five
-/// slopes, three lapse rates.
-fn best_of_grid(counts: &[Count], model: &Model) -> Weibull {
-    let lowest = counts.iter().map(|count| count.x).fold(f64::INFINITY, f64::min) - 1.0;
-    let highest = counts.iter().map(|count| count.x).fold(f64::NEG_INFINITY, f64::max) + 1.0;
-    let steps = ((highest - lowest) / 0.05).ceil().min(2000.0);
-    let slopes = candidates(model.slope, &[1.0, 2.0, 3.5, 6.0, 12.0]);
-    let lapses = candidates(model.lapse, &[0.001, 0.02, 0.08]);
-    let mut best =
-        (f64::NEG_INFINITY, Weibull { location: lowest, slope: slopes[0], guess: model.guess, lapse: lapses[0] });
-    for step in 0..=steps as usize {
-        for &slope in &slopes {
-            for &lapse in &lapses {
-                let location = lowest + (highest - lowest) * step as f64 / steps;
-                let weibull = Weibull { location, slope, guess: model.guess, lapse };
-                let likelihood = log_likelihood(counts, &weibull);
-                if likelihood > best.0 {
-                    best = (likelihood, weibull);
-                }
-            }
-        }
-    }
-    best.1
+/// Where a likelihood keeps growing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Limit {
+    /// Everything is seen, the threshold is arbitrarily low.
+    Seen,
+    /// Everything is guessed, the threshold is arbitrarily high.
+    Guessed,
+    /// This end of [`SLOPE_RANGE`].
+    Slope(f64),
 }
 
-fn candidates(parameter: Parameter, grid: &[f64]) -> Vec<f64> {
-    match parameter {
-        Parameter::Fixed(value) => vec![value],
-        Parameter::Free => grid.to_vec(),
+impl From<Limit> for Unidentified {
+    fn from(limit: Limit) -> Self {
+        match limit {
+            Limit::Seen => Self::NoLowerBound,
+            Limit::Guessed => Self::NoUpperBound,
+            Limit::Slope(slope) => Self::Slope { slope },
+        }
     }
 }
 
-/// Damped Newton ascent over the free parameters, until a full step changes nothing.
-fn climb(counts: &[Count], start: Weibull, free: [bool; 3]) -> Weibull {
-    let mut weibull = start;
-    let mut likelihood = log_likelihood(counts, &weibull);
-    let mut damping = 0.0;
-    for _ in 0..200 {
-        let (gradient, information) = derivatives(counts, &weibull, free);
-        let scale = information.diagonal().map(|curvature| curvature.abs().max(1e-9));
-        let damped = &information + DMatrix::from_diagonal(&(scale * damping));
-        let candidate =
-            damped.cholesky().map(|factor| factor.solve(&gradient)).and_then(|step| moved(weibull, &step, free));
-        let reached = candidate.map_or(f64::NEG_INFINITY, |candidate| log_likelihood(counts, &candidate));
-        match candidate {
-            Some(candidate) if reached >= likelihood => {
-                let settled = (candidate.location - weibull.location).abs() < 1e-13
-                    && (candidate.slope - weibull.slope).abs() < 1e-12
-                    && (candidate.lapse - weibull.lapse).abs() < 1e-14;
-                (weibull, likelihood) = (candidate, reached);
-                damping = if damping < 1e-6 { 0.0 } else { damping * 0.1 };
-                if settled {
-                    break;
-                }
-            }
-            _ => damping = if damping == 0.0 { 1e-3 } else { damping * 10.0 },
-        }
-        if damping > 1e12 {
-            break;
+impl Limit {
+    /// The limit that lies at most `drop` nats below `top`.
+    fn of(counts: &[Count], model: &Model, top: &Maximum, drop: f64) -> Option<Self> {
+        let is_near = |end: &f64| model.slope == Parameter::Free && Self::is_slope(*end, counts, model, top, drop);
+        let slope = || SLOPE_RANGE.into_iter().find(is_near).map(Self::Slope);
+        Self::constant(counts, model, top, drop).or_else(slope)
+    }
+
+    /// Whether the best function of slope `end` lies at most `drop` nats below `top`.
+    pub(crate) fn is_slope(end: f64, counts: &[Count], model: &Model, top: &Maximum, drop: f64) -> bool {
+        let held = Search { slope: Parameter::Fixed(end), ..Search::of(model) };
+        held.highest(counts, Some(&top.weibull)).is_some_and(|found| top.is_within(drop, found.ln_likelihood))
+    }
+
+    /// The limit of a constant function that lies at most `drop` nats below `top`.
+    pub(crate) fn constant(counts: &[Count], model: &Model, top: &Maximum, drop: f64) -> Option<Self> {
+        let is_near = |probabilities| top.is_within(drop, constant_log_likelihood(counts, probabilities));
+        if is_near(all_seen(counts, model)) {
+            Some(Self::Seen)
+        } else if is_near([model.guess, 1.0 - model.guess]) {
+            Some(Self::Guessed)
+        } else {
+            None
         }
     }
-    weibull
 }
 
-/// `weibull` moved by `step` and kept in range; `None` when the step is not finite.
-fn moved(mut weibull: Weibull, step: &DVector<f64>, free: [bool; 3]) -> Option<Weibull> {
-    let mut steps = step.iter().copied();
-    if free[0] {
-        weibull.location += steps.next()?;
-    }
-    if free[1] {
-        weibull.slope = (weibull.slope + steps.next()?).clamp(SLOPE_RANGE[0], SLOPE_RANGE[1]);
-    }
-    if free[LAPSE] {
-        weibull.lapse = (weibull.lapse + steps.next()?).clamp(0.0, LAPSE_LARGEST);
-    }
-    (weibull.location.is_finite() && weibull.slope.is_finite()).then_some(weibull)
-}
-
-/// Refuses a location or a slope that only the search range keeps finite.
-fn check_bounded(counts: &[Count], best: &Weibull, model: &Model) -> Result<(), Unidentified> {
-    let reached = log_likelihood(counts, best);
-    let everything_seen = constant_log_likelihood(counts, 1.0 - best.lapse);
-    let everything_guessed = constant_log_likelihood(counts, best.guess);
-    if reached - everything_seen < LIKELIHOOD_DROP_95 {
-        return Err(Unidentified::NoLowerBound);
-    }
-    if reached - everything_guessed < LIKELIHOOD_DROP_95 {
-        return Err(Unidentified::NoUpperBound);
-    }
-    if model.slope == Parameter::Free {
-        for slope in SLOPE_RANGE {
-            let fixed = Model { slope: Parameter::Fixed(slope), ..*model };
-            let at_limit = climb(counts, best_of_grid(counts, &fixed), free_parameters(&fixed));
-            if reached - log_likelihood(counts, &at_limit) < LIKELIHOOD_DROP_95 {
-                return Err(Unidentified::Slope { slope });
-            }
+/// Probabilities of a correct and of a wrong answer to what is seen always.
+pub(crate) fn all_seen(counts: &[Count], model: &Model) -> [f64; 2] {
+    let lapse = match model.lapse {
+        Parameter::Fixed(lapse) => lapse,
+        Parameter::Free => {
+            let total: f64 = counts.iter().map(|count| count.total).sum();
+            let wrong: f64 = counts.iter().map(|count| count.total - count.correct).sum();
+            (wrong / total).clamp(0.0, LAPSE_LARGEST)
         }
-    }
-    Ok(())
+    };
+    [1.0 - lapse, lapse]
 }
 
 /// Precision and goodness of fit at the maximum; `None` when the likelihood is flat there.
-fn summarise(counts: &[Count], weibull: Weibull, free: [bool; 3]) -> Option<Fitted> {
-    let (_, information) = derivatives(counts, &weibull, free);
+fn summarise(counts: &[Count], search: &Search, top: &Maximum) -> Option<Fitted> {
+    let (_, information, free) = search.derivatives(counts, &top.weibull)?;
     let covariance = information.cholesky()?.inverse();
-    let mut errors = covariance.diagonal().iter().map(|variance| variance.sqrt()).collect::<Vec<_>>().into_iter();
-    let mut error_of = |index: usize| free[index].then(|| errors.next()).flatten();
-    let (location_se, slope_se, lapse_se) = (error_of(0)?, error_of(1), error_of(LAPSE));
-    let fitted = log_likelihood(counts, &weibull);
-    let saturated: f64 = counts.iter().map(|count| bernoulli(count, count.correct / count.total)).sum();
-    location_se.is_finite().then_some(Fitted {
-        weibull,
-        negative_log_likelihood: -fitted,
-        deviance: 2.0 * (saturated - fitted),
+    let error_of = |index: usize| free[index].then(|| covariance[(index, index)].sqrt());
+    let (location_se, slope_se, lapse_se) = (error_of(PLACE)?, error_of(SLOPE), error_of(LAPSE));
+    let finite = [Some(location_se), slope_se, lapse_se].into_iter().flatten().all(f64::is_finite);
+    finite.then(|| Fitted {
+        weibull: top.weibull,
+        negative_log_likelihood: -top.ln_likelihood,
+        deviance: deviance(counts, &top.weibull),
         location_se,
         slope_se,
         lapse_se,
     })
-}
-
-/// `k ln p + (n - k) ln(1 - p)`, with `0 ln 0 = 0`.
-fn bernoulli(count: &Count, p: f64) -> f64 {
-    let term = |weight: f64, probability: f64| if weight == 0.0 { 0.0 } else { weight * probability.ln() };
-    term(count.correct, p) + term(count.total - count.correct, 1.0 - p)
-}
-
-fn constant_log_likelihood(counts: &[Count], p: f64) -> f64 {
-    counts.iter().map(|count| bernoulli(count, p)).sum()
-}
-
-/// `ln L` without binomial coefficients.
-pub fn log_likelihood(counts: &[Count], weibull: &Weibull) -> f64 {
-    counts.iter().map(|count| bernoulli(count, weibull.correct(count.x))).sum()
-}
-
-/// Gradient of `ln L` and its negated Hessian over the free ones of (location, slope, lapse).
-///
-/// With `u = exp(v)`, `v = ln10 b (x - t)`, `A = 1 - g - l`: `dp = A exp(-u) du`, `d2p = A exp(-u) (d2u - du du')`,
-/// `du = u dv`, `d2u = u (d2v + dv dv')`; in the lapse rate `dp/dl = -F`, `d2p/dl dq = -exp(-u) du/dq`.
-fn derivatives(counts: &[Count], weibull: &Weibull, free: [bool; 3]) -> (DVector<f64>, DMatrix<f64>) {
-    let mut gradient = DVector::zeros(3);
-    let mut information = DMatrix::zeros(3, 3);
-    let amplitude = 1.0 - weibull.guess - weibull.lapse;
-    for count in counts {
-        // Beyond u = 700 the function is flat and exp(-u) is zero.
-        let u = weibull.exponent(count.x).min(700.0);
-        let unseen = (-u).exp();
-        let dv = [-LN_10 * weibull.slope, LN_10 * (count.x - weibull.location)];
-        let d2v = [[0.0, -LN_10], [-LN_10, 0.0]];
-        let mut dp = DVector::zeros(3);
-        let mut d2p = DMatrix::zeros(3, 3);
-        for i in 0..2 {
-            dp[i] = amplitude * unseen * u * dv[i];
-            for j in 0..2 {
-                d2p[(i, j)] = amplitude * unseen * u * (d2v[i][j] + dv[i] * dv[j] * (1.0 - u));
-            }
-            d2p[(i, LAPSE)] = -unseen * u * dv[i];
-            d2p[(LAPSE, i)] = d2p[(i, LAPSE)];
-        }
-        dp[LAPSE] = -(1.0 - unseen);
-
-        let p = weibull.correct(count.x);
-        let ratio = |weight: f64, probability: f64| if weight == 0.0 { 0.0 } else { weight / probability };
-        let (hit, miss) = (ratio(count.correct, p), ratio(count.total - count.correct, 1.0 - p));
-        gradient += &dp * (hit - miss);
-        information += &dp * dp.transpose() * (ratio(hit, p) + ratio(miss, 1.0 - p)) - d2p * (hit - miss);
-    }
-    let chosen: Vec<usize> = (0..3).filter(|&index| free[index]).collect();
-    (gradient.select_rows(&chosen), information.select_rows(&chosen).select_columns(&chosen))
 }

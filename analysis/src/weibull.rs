@@ -7,6 +7,8 @@
 //! `F` is the probability that the artifact is *seen*; `p` is the probability of a *correct* answer.
 //! Source: Watson and Pelli 1983, Eq. 1, written with the upper asymptote `1 - l`. QUEST's own form mixes with weight
 //! `delta`: `p = delta g + (1 - delta)(g + (1 - g) F)`. That is this function with `l = delta (1 - g)`.
+//!
+//! Exponentials and logarithms are libm's: a fit, and all that is drawn from it, has the same bits on every machine.
 
 use std::f64::consts::LN_10;
 
@@ -26,12 +28,12 @@ pub struct Weibull {
 impl Weibull {
     /// `10^(b (x - t))`, the exponent of `F`.
     pub(crate) fn exponent(&self, x: f64) -> f64 {
-        (LN_10 * self.slope * (x - self.location)).exp()
+        libm::exp(LN_10 * self.slope * (x - self.location))
     }
 
     /// Probability that the artifact is seen at intensity `x`.
     pub fn detection(&self, x: f64) -> f64 {
-        -(-self.exponent(x)).exp_m1()
+        -libm::expm1(-self.exponent(x))
     }
 
     /// Probability of a correct answer at intensity `x`.
@@ -39,10 +41,15 @@ impl Weibull {
         self.guess + (1.0 - self.guess - self.lapse) * self.detection(x)
     }
 
+    /// Probability of a wrong answer at intensity `x`: `1 - p`, with all its digits where `p` is nearly 1.
+    pub fn wrong(&self, x: f64) -> f64 {
+        self.lapse + (1.0 - self.guess - self.lapse) * libm::exp(-self.exponent(x))
+    }
+
     /// Intensity at which the artifact is seen with probability `detection`; `None` outside of the open interval 0..1.
     pub fn x_at_detection(&self, detection: f64) -> Option<f64> {
         let inside = detection > 0.0 && detection < 1.0;
-        inside.then(|| self.location + (-(-detection).ln_1p()).log10() / self.slope)
+        inside.then(|| self.location + libm::log10(-libm::log1p(-detection)) / self.slope)
     }
 
     /// Intensity at which the answer is correct with probability `probability`; `None` where the function never takes
@@ -66,6 +73,16 @@ mod tests {
         }
         assert_eq!(QUEST.x_at_correct(0.4), None);
         assert_eq!(QUEST.x_at_correct(0.999), None);
+    }
+
+    #[test]
+    fn wrong_is_one_minus_correct_and_keeps_its_digits_at_easy_levels() {
+        for x in [-1.0, -0.2, 0.0, 0.2] {
+            assert!((QUEST.wrong(x) + QUEST.correct(x) - 1.0).abs() < 1e-15);
+        }
+        let lapseless = Weibull { lapse: 0.0, ..QUEST };
+        assert_eq!(lapseless.correct(0.6), 1.0);
+        assert!((lapseless.wrong(0.6).ln() + lapseless.exponent(0.6) - 0.5_f64.ln()).abs() < 1e-10);
     }
 
     #[test]

@@ -10,10 +10,6 @@ use std::{
     f64::consts::LN_10,
 };
 
-use argmin::{
-    core::{CostFunction, Executor, State},
-    solver::brent::BrentRoot,
-};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::{
@@ -21,10 +17,13 @@ use super::{
     fit::{Maximum, SCALES, maximise},
     parameters_of, sd_rise,
 };
-use crate::{Error, assumptions::DETECTION_AT_THRESHOLD};
+use crate::{Error, assumptions::DETECTION_AT_THRESHOLD, crossing::crossing};
 
 /// Precision of an end of an interval, log10 units: 0.02 % of a ratio.
 const END_PRECISION: f64 = 1e-4;
+
+/// Distance at which an end is looked for first, log10 units: about twice the standard error of ten people's ratio.
+const FIRST: f64 = 0.1;
 
 /// Farthest that an end is sought: a factor of 1000.
 const FARTHEST: f64 = 3.0;
@@ -170,30 +169,7 @@ impl MixedModel {
             known.borrow_mut().push((distance, height));
             Ok(height)
         };
-        let (mut inside, mut outside) = (0.0, 0.1);
-        while beyond(outside)? < 0.0 {
-            inside = outside;
-            outside *= 2.0;
-            if outside > FARTHEST {
-                return Ok(None);
-            }
-        }
-        let root = Executor::new(Root(&beyond), BrentRoot::new(inside, outside, END_PRECISION))
-            .configure(|state| state.max_iters(60))
-            .ctrlc(false)
-            .run()
-            .map_err(|reason| Error::CannotFit(format!("no end of an interval: {reason}")))?;
-        Ok(root.state().get_best_param().map(|distance| value + direction * distance))
-    }
-}
-
-struct Root<F>(F);
-
-impl<F: Fn(f64) -> Result<f64, Error>> CostFunction for Root<F> {
-    type Param = f64;
-    type Output = f64;
-
-    fn cost(&self, at: &f64) -> Result<f64, argmin::core::Error> {
-        Ok((self.0)(*at)?)
+        let distance = crossing(beyond, FIRST, FARTHEST, END_PRECISION)?;
+        Ok(distance.map(|distance| value + direction * distance))
     }
 }
