@@ -18,7 +18,7 @@ pub(crate) struct Binomial {
 impl Binomial {
     /// Of `total` answers, a whole number, each correct with probability `correct` and wrong with `wrong`, which are at
     /// least 0 and add up to 1. The table has about 18 standard deviations.
-    pub fn new(total: f64, correct: f64, wrong: f64) -> Self {
+    pub fn new(total: f64, [correct, wrong]: [f64; 2]) -> Self {
         let mode = ((total + 1.0) * correct).floor().clamp(0.0, total);
         let mut below = Vec::new();
         let (mut k, mut term) = (mode, 1.0);
@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn the_draws_of_small_counts_have_the_closed_form_shares() {
-        let draws = stratified(&Binomial::new(3.0, 0.25, 0.75), 64_000);
+        let draws = stratified(&Binomial::new(3.0, [0.25, 0.75]), 64_000);
         for (k, share) in [(0.0, 27.0 / 64.0), (1.0, 27.0 / 64.0), (2.0, 9.0 / 64.0), (3.0, 1.0 / 64.0)] {
             let found = draws.iter().filter(|draw| **draw == k).count();
             assert_eq!(found, (64_000.0 * share) as usize, "{k}");
@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn mean_and_variance_are_those_of_the_distribution_up_to_a_billion_answers() {
         for (total, p) in [(10.0, 0.5), (90.0, 0.99), (1e5, 0.73), (1e9, 0.82), (1e9, 1e-9)] {
-            let draws = stratified(&Binomial::new(total, p, 1.0 - p), 200_000);
+            let draws = stratified(&Binomial::new(total, [p, 1.0 - p]), 200_000);
             let mean = draws.iter().sum::<f64>() / 200_000.0;
             let variance = draws.iter().map(|draw| (draw - mean).powi(2)).sum::<f64>() / 200_000.0;
             let expected = total * p * (1.0 - p);
@@ -92,8 +92,8 @@ mod tests {
     #[test]
     fn the_certain_and_the_impossible_are_drawn_always_and_never() {
         for unit in [0.0, 0.5, 1.0 - f64::EPSILON] {
-            assert_eq!(Binomial::new(7.0, 1.0, 0.0).draw(unit), 7.0);
-            assert_eq!(Binomial::new(7.0, 0.0, 1.0).draw(unit), 0.0);
+            assert_eq!(Binomial::new(7.0, [1.0, 0.0]).draw(unit), 7.0);
+            assert_eq!(Binomial::new(7.0, [0.0, 1.0]).draw(unit), 0.0);
         }
     }
 }

@@ -73,7 +73,7 @@ pub(crate) fn refits(
     resampling: &Resampling,
     progress: impl Fn() + Sync,
 ) -> Vec<Refit> {
-    let table = |count: &Count| Binomial::new(count.total, weibull.correct(count.x), weibull.wrong(count.x));
+    let table = |count: &Count| Binomial::new(count.total, weibull.answers(count.x));
     let tables: Vec<Binomial> = counts.iter().map(table).collect();
     let refit = |number| {
         let mut draw = draws(resampling.seed, number);

@@ -38,6 +38,19 @@ pub struct LevelFit {
 }
 
 /// The fit of a table with its uncertainty; the fields are keys of its JSON, beside those of the fit.
+///
+/// How often the intervals hold the truth, `examples/threshold_coverage.rs`: two alternatives, slope 3, seven levels, 1000
+/// experiments a row, so standard errors of 0.7 %. Location, slope, x82:
+///
+/// | answers a level | lapse rate | profile, % | bootstrap, % | slopes without an upper end | p < 5 % | no estimate |
+/// |---|---|---|---|---|---|---|
+/// | 10 | given | 93.5, 98.2, 94.0 | 90.7, 99.2, 89.2 | 70 to 79 % | 3.6 % | 16 % |
+/// | 20 | given | 93.9, 94.9, 93.7 | 92.7, 99.1, 91.8 | 40 % | 4.2 % | 5 % |
+/// | 40 | given | 93.4, 94.9, 93.4 | 92.5, 95.5, 92.6 | 10 to 12 % | 5.1 % | 1 % |
+/// | 100 | given | 93.8, 95.2, 94.0 | 93.9, 95.7, 93.8 | 0.2 % | 5.4 % | 0 |
+/// | 100 | free | 93.3, 94.4, 93.7 | 92.7, 93.7, 92.6 | 1 % | 5.2 % | 0.1 % |
+///
+/// The profile is the one to report: with few answers the bootstrap of a place is too narrow.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ThresholdReport {
     /// The fit.

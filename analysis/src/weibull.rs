@@ -10,7 +10,7 @@
 //!
 //! Exponentials and logarithms are libm's: a fit, and all that is drawn from it, has the same bits on every machine.
 
-use std::f64::consts::LN_10;
+use std::f64::consts::{LN_2, LN_10};
 
 /// A Weibull psychometric function.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,9 +41,18 @@ impl Weibull {
         self.guess + (1.0 - self.guess - self.lapse) * self.detection(x)
     }
 
-    /// Probability of a wrong answer at intensity `x`: `1 - p`, with all its digits where `p` is nearly 1.
-    pub fn wrong(&self, x: f64) -> f64 {
-        self.lapse + (1.0 - self.guess - self.lapse) * libm::exp(-self.exponent(x))
+    /// Probabilities of a correct and of a wrong answer at intensity `x`, each with all its digits where it is small.
+    pub(crate) fn answers(&self, x: f64) -> [f64; 2] {
+        let exponent = self.exponent(x);
+        let [seen, unseen] = if exponent < LN_2 {
+            let seen = -libm::expm1(-exponent);
+            [seen, 1.0 - seen]
+        } else {
+            let unseen = libm::exp(-exponent);
+            [1.0 - unseen, unseen]
+        };
+        let amplitude = 1.0 - self.guess - self.lapse;
+        [self.guess + amplitude * seen, self.lapse + amplitude * unseen]
     }
 
     /// Intensity at which the artifact is seen with probability `detection`; `None` outside of the open interval 0..1.
@@ -76,13 +85,14 @@ mod tests {
     }
 
     #[test]
-    fn wrong_is_one_minus_correct_and_keeps_its_digits_at_easy_levels() {
-        for x in [-1.0, -0.2, 0.0, 0.2] {
-            assert!((QUEST.wrong(x) + QUEST.correct(x) - 1.0).abs() < 1e-15);
+    fn the_probabilities_of_both_answers_keep_their_digits_where_they_are_small() {
+        for x in [-1.0, -0.2, -0.05, 0.0, 0.2] {
+            let [correct, wrong] = QUEST.answers(x);
+            assert!((correct - QUEST.correct(x)).abs() < 1e-15 && (correct + wrong - 1.0).abs() < 1e-15);
         }
-        let lapseless = Weibull { lapse: 0.0, ..QUEST };
-        assert_eq!(lapseless.correct(0.6), 1.0);
-        assert!((lapseless.wrong(0.6).ln() + lapseless.exponent(0.6) - 0.5_f64.ln()).abs() < 1e-10);
+        let certain = Weibull { guess: 0.0, lapse: 0.0, ..QUEST };
+        assert!((certain.answers(0.6)[1].ln() + certain.exponent(0.6)).abs() < 1e-10);
+        assert!((certain.answers(-9.0)[0] / certain.exponent(-9.0) - 1.0).abs() < 1e-12);
     }
 
     #[test]

@@ -78,6 +78,31 @@ fn threshold_prints_the_keys_of_the_reference() {
 }
 
 #[test]
+fn threshold_prints_intervals_residuals_and_equal_numbers_for_equal_seeds() {
+    let table = data("weibull_fit_data.csv");
+    let print = |seed| program(&["threshold", "--data", path(&table), "--resamples", "300", "--seed", seed]);
+    let output = print("4");
+    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+    assert_eq!(output.stdout, print("4").stdout);
+    assert_ne!(output.stdout, print("5").stdout);
+
+    let printed: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    for intervals in ["ci95_profile", "ci95_bootstrap"] {
+        for key in ["threshold_t", "slope_beta", "x82"] {
+            let ends = [0, 1].map(|end| printed[intervals][key][end].as_f64().unwrap());
+            let value = printed[key].as_f64().unwrap();
+            assert!(ends[0] < value && value < ends[1], "{intervals} {key}: {ends:?}");
+        }
+    }
+    let levels = printed["levels"].as_array().unwrap();
+    let squares: f64 = levels.iter().map(|level| level["residual"].as_f64().unwrap().powi(2)).sum();
+    assert_eq!(levels.len(), 13);
+    assert!((squares - printed["deviance"].as_f64().unwrap()).abs() < 1e-9);
+    assert!((0.0..=1.0).contains(&printed["deviance_p"].as_f64().unwrap()));
+    assert_eq!(printed["notes"].as_array().unwrap().len(), 0);
+}
+
+#[test]
 fn quest_prints_the_reference_table() {
     let meta = fs::read_to_string(quest_data("quest_reference_meta.json")).unwrap();
     let meta: serde_json::Value = serde_json::from_str(&meta).unwrap();
@@ -138,12 +163,27 @@ fn what_is_wrong_takes_one_line_and_exit_status_1() {
     let infinite = file("infinite.csv", "intensity,response\ninf,1\n");
     let all_correct = file("all.csv", "level,n_correct,n_total\n1,9,9\n2,9,9\n");
     let missing = folder.path().join("missing.csv");
-    let cases: [(&[&str], &str); 9] = [
+    let jump = file("jump.csv", "level,n_correct,n_total\n1,5,10\n2,99,100\n");
+    let fraction = file("fraction.csv", "level,n_correct,n_total\n1,5.5,10\n");
+    let cases: [(&[&str], &str); 13] = [
         (&["fit", path(&empty), "--out", path(&out)], "no session"),
         (&["fit", path(&missing), "--out", path(&out)], "missing.csv"),
         (&["threshold", "--data", path(&missing)], "missing.csv"),
         (&["threshold", "--data", path(&all_correct)], "all.csv: the data cannot carry a fit"),
         (&["threshold", "--data", path(&all_correct), "--guess", "NaN"], "--guess is NaN"),
+        (
+            &["threshold", "--data", path(&jump)],
+            "jump.csv: the data cannot carry a fit: the answers do not bound the slope",
+        ),
+        (
+            &["threshold", "--data", path(&fraction)],
+            "fraction.csv: line 2: n_correct is 5.5 of n_total 10; allowed are",
+        ),
+        (
+            &["threshold", "--data", path(&jump), "--lapse", "0.6"],
+            "--lapse is 0.6; allowed is at least 0 and below 0.2",
+        ),
+        (&["threshold", "--data", path(&jump), "--resamples", "7"], "--resamples is 7; allowed is 100 to 1000000"),
         (&["quest", "--config", path(&bad_config), "--responses", path(&answers)], "bad.json: line 1"),
         (&["quest", "--config", path(&config), "--responses", path(&answers)], "answers.csv: line 3"),
         (&["quest", "--config", path(&config), "--responses", path(&infinite)], "line 2"),

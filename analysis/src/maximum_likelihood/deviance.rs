@@ -11,42 +11,45 @@ fn term(weight: f64, probability: f64) -> f64 {
     if weight == 0.0 { 0.0 } else { weight * libm::log(probability) }
 }
 
-/// `ln L` without binomial coefficients.
-pub fn log_likelihood(counts: &[Count], weibull: &Weibull) -> f64 {
-    let of = |count: &Count| {
-        term(count.correct, weibull.correct(count.x)) + term(count.total - count.correct, weibull.wrong(count.x))
-    };
-    counts.iter().map(of).sum()
-}
-
-/// `ln L` where the probabilities of a correct and of a wrong answer are the same at every level.
-pub(crate) fn constant_log_likelihood(counts: &[Count], [correct, wrong]: [f64; 2]) -> f64 {
-    counts.iter().map(|count| term(count.correct, correct) + term(count.total - count.correct, wrong)).sum()
+/// `k ln(correct) + (n - k) ln(wrong)`.
+fn bernoulli(count: &Count, [correct, wrong]: [f64; 2]) -> f64 {
+    term(count.correct, correct) + term(count.total - count.correct, wrong)
 }
 
 /// A level's share of the deviance, at least 0.
-fn part(count: &Count, correct: f64, wrong: f64) -> f64 {
-    let half = |observed: f64, probability: f64| term(observed, observed / (count.total * probability));
-    (2.0 * (half(count.correct, correct) + half(count.total - count.correct, wrong))).max(0.0)
+fn part(count: &Count, [correct, wrong]: [f64; 2]) -> f64 {
+    let over = |observed: f64, probability: f64| observed / (count.total * probability);
+    let ratios = [over(count.correct, correct), over(count.total - count.correct, wrong)];
+    (2.0 * bernoulli(count, ratios)).max(0.0)
+}
+
+/// `ln L` without binomial coefficients.
+pub fn log_likelihood(counts: &[Count], weibull: &Weibull) -> f64 {
+    counts.iter().map(|count| bernoulli(count, weibull.answers(count.x))).sum()
+}
+
+/// `ln L` where the probabilities of a correct and of a wrong answer are the same at every level.
+pub(crate) fn constant_log_likelihood(counts: &[Count], answers: [f64; 2]) -> f64 {
+    counts.iter().map(|count| bernoulli(count, answers)).sum()
 }
 
 /// Twice the log likelihood ratio against the saturated model, which has a probability for each level.
 pub(crate) fn deviance(counts: &[Count], weibull: &Weibull) -> f64 {
-    counts.iter().map(|count| part(count, weibull.correct(count.x), weibull.wrong(count.x))).sum()
+    counts.iter().map(|count| part(count, weibull.answers(count.x))).sum()
 }
 
 /// The deviance where the probabilities of a correct and of a wrong answer are the same at every level.
-pub(crate) fn constant_deviance(counts: &[Count], [correct, wrong]: [f64; 2]) -> f64 {
-    counts.iter().map(|count| part(count, correct, wrong)).sum()
+pub(crate) fn constant_deviance(counts: &[Count], answers: [f64; 2]) -> f64 {
+    counts.iter().map(|count| part(count, answers)).sum()
 }
 
 /// The deviance residual of each level: positive where more answers were correct than the function expects. About
 /// standard normal under the function where a level has many answers.
 pub fn deviance_residuals(counts: &[Count], weibull: &Weibull) -> Vec<f64> {
     let residual = |count: &Count| {
-        let correct = weibull.correct(count.x);
-        let size = part(count, correct, weibull.wrong(count.x)).sqrt();
-        if count.correct < correct * count.total { -size } else { size }
+        let answers = weibull.answers(count.x);
+        let size = part(count, answers).sqrt();
+        if count.correct < answers[0] * count.total { -size } else { size }
     };
     counts.iter().map(residual).collect()
 }

@@ -78,7 +78,7 @@ impl Place {
                 d2p[(LAPSE, index)] -= unseen * u * dv[index];
             }
 
-            let (correct, wrong) = (weibull.correct(count.x), weibull.wrong(count.x));
+            let [correct, wrong] = weibull.answers(count.x);
             let ratio = |weight: f64, probability: f64| if weight == 0.0 { 0.0 } else { weight / probability };
             let (hit, miss) = (ratio(count.correct, correct), ratio(count.total - count.correct, wrong));
             gradient += dp * (hit - miss);

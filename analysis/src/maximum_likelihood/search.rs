@@ -15,15 +15,15 @@ use crate::weibull::Weibull;
 const GRID_SLOPES: [f64; 7] = [0.5, 1.0, 2.0, 3.5, 6.0, 12.0, 30.0];
 
 /// Lapse rates of the grid.
-const GRID_LAPSES: [f64; 3] = [0.001, 0.02, 0.08];
+const GRID_LAPSES: [f64; 2] = [0.005, 0.06];
 
 /// Places of the grid beside each level, decades times the slope: those at which the level lies on the rise of the
-/// function, from seen but for 5e-5 to unseen but for 2 %. Elsewhere the likelihood of a steep function is flat and shows
+/// function, from seen but for 5e-5 to unseen but for 3 %. Elsewhere the likelihood of a steep function is flat and shows
 /// no way.
-const GRID_RISE: [f64; 8] = [-1.0, -0.6, -0.2, 0.2, 0.6, 1.0, 1.4, 1.8];
+const GRID_RISE: [f64; 6] = [-1.0, -0.5, 0.0, 0.5, 1.0, 1.5];
 
 /// Places of the grid that are closer, decades times the slope, are one.
-const GRID_CLOSEST: f64 = 0.3;
+const GRID_CLOSEST: f64 = 0.4;
 
 /// A step that gains fewer nats is the last one: the next would gain the square of it.
 const GAIN_SETTLED: f64 = 1e-12;
