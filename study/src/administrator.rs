@@ -1,12 +1,14 @@
 //! The administrator's side of a session: where the panel is, what it is told, and what is ordered there.
 //!
 //! With a second monitor the panel is a window on it. With one it is a page over the participant's screen,
-//! which F10 opens and closes; the session is paused under it.
+//! which F10 opens and closes; the session is paused under it, and the charts come after a page that says for whom
+//! they are.
 
 use eframe::egui;
 
 use crate::desk::{self, Bands, DeskState, DeskWindow, Disk, Given, Order, Status, other_monitor};
-use crate::keys;
+use crate::keys::{self, Passage};
+use crate::screen;
 use crate::sitting::Sitting;
 use crate::words::desk::DeskWords;
 
@@ -29,8 +31,17 @@ enum Place {
     Page {
         status: Option<Box<Status>>,
         state: DeskState,
-        is_open: bool,
+        opened: Opened,
     },
+}
+
+/// How far the panel over the participant's screen was opened.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Opened {
+    Closed,
+    /// The page before it is on show.
+    AskedFor,
+    Open,
 }
 
 impl Administrator {
@@ -43,8 +54,8 @@ impl Administrator {
     pub(crate) fn attend(&mut self, context: &egui::Context, frame: &eframe::Frame) -> Vec<Order> {
         if let Place::Unknown = self.place {
             self.place = match other_monitor(frame) {
-                Some(corner) => Place::Window(DeskWindow::new(self.words, Some(corner))),
-                None => Place::Page { status: None, state: DeskState::default(), is_open: false },
+                Some(other) => Place::Window(DeskWindow::new(self.words, Some(other))),
+                None => Place::Page { status: None, state: DeskState::default(), opened: Opened::Closed },
             };
         }
         let is_asked_for = keys::administrator(context);
@@ -56,10 +67,9 @@ impl Administrator {
                 window.show(context);
                 window.take_orders()
             }
-            Place::Page { is_open, .. } => {
+            Place::Page { opened, .. } => {
                 if is_asked_for {
-                    *is_open = !*is_open;
-                    // The panel finds its place in its first frame and takes it in the second.
+                    *opened = if *opened == Opened::Closed { Opened::AskedFor } else { Opened::Closed };
                     context.request_repaint();
                 }
                 Vec::new()
@@ -68,14 +78,22 @@ impl Administrator {
         }
     }
 
-    /// Whether the panel is over the participant's screen.
+    /// Whether the panel, or the page before it, is over the participant's screen.
     pub(crate) fn covers_screen(&self) -> bool {
-        matches!(self.place, Place::Page { is_open: true, .. })
+        matches!(self.place, Place::Page { opened: Opened::AskedFor | Opened::Open, .. })
     }
 
-    /// The panel over the participant's screen.
+    /// The panel over the participant's screen, or the page before it.
     pub(crate) fn show(&mut self, ui: &mut egui::Ui) -> Option<Order> {
         match &mut self.place {
+            Place::Page { opened: opened @ Opened::AskedFor, .. } => {
+                if let Some(passage) = screen::in_charge(ui, self.words) {
+                    *opened = if passage == Passage::On { Opened::Open } else { Opened::Closed };
+                    // The panel finds its place in its first frame and takes it in the second.
+                    ui.request_repaint();
+                }
+                None
+            }
             Place::Page { status: Some(status), state, .. } => desk::show(ui, status, state, self.words),
             _ => None,
         }
@@ -83,8 +101,8 @@ impl Administrator {
 
     /// Leaves the participant's screen to the participant.
     pub(crate) fn uncover_screen(&mut self) {
-        if let Place::Page { is_open, .. } = &mut self.place {
-            *is_open = false;
+        if let Place::Page { opened, .. } = &mut self.place {
+            *opened = Opened::Closed;
         }
     }
 
@@ -124,6 +142,7 @@ impl Administrator {
             is_paused: sitting.is_paused(),
             stopped,
             refused_round: self.refused_round,
+            other_display: sitting.other_display(),
             disk,
         };
         let status = Status::of(given, &mut self.bands)?;

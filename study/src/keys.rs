@@ -27,6 +27,24 @@ pub(crate) fn administrator(context: &egui::Context) -> bool {
     pressed(context).contains(&Key::F10)
 }
 
+/// Where somebody goes from the page before the administrator's panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Passage {
+    /// To the panel.
+    On,
+    /// To the participant's screen.
+    Back,
+}
+
+/// Where return and escape lead, if one was pressed in this frame.
+pub(crate) fn passage(context: &egui::Context) -> Option<Passage> {
+    pressed(context).into_iter().find_map(|key| match key {
+        Key::Enter => Some(Passage::On),
+        Key::Escape => Some(Passage::Back),
+        _ => None,
+    })
+}
+
 /// What a key answers: the arrows by the place of the answer; of two pictures, F and J too; yes and no by their
 /// first letters, of which J is the German one and so can have no place.
 fn answer_of(key: Key, answers: [Answer; 2]) -> Option<Answer> {

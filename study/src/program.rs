@@ -13,7 +13,7 @@ use crate::rehearsal::Rehearsal;
 use crate::screen;
 use crate::session_folder::{Found, find};
 use crate::session_view::SessionView;
-use crate::setup::{Given, MeasuredDisplay, Ready, RecentFolders, Setup, SetupAction};
+use crate::setup::{Given, MeasuredDisplay, Page, Ready, RecentFolders, Setup, SetupAction};
 use crate::sitting::{self, Sitting};
 use crate::software::software;
 use crate::theme;
@@ -135,6 +135,11 @@ impl eframe::App for Program {
                 ui.request_repaint();
             }
             Part::Setup(setup) => {
+                // Where it is said and nowhere else: to ask the system in every frame holds up what is typed.
+                if setup.page() == Page::Summary {
+                    let (mut monitors, index) = monitors(frame);
+                    setup.find_on(index.map(|index| monitors.swap_remove(index)));
+                }
                 if let Some(action) = screen::setup(ui, setup) {
                     self.act(action, ui.ctx());
                     ui.request_repaint();

@@ -184,6 +184,13 @@ impl SessionView {
     /// Does what the administrator ordered, then shows the participant what is to be seen and does what they
     /// asked for.
     fn turn(&mut self, ui: &mut egui::Ui, frame: &eframe::Frame) -> anyhow::Result<()> {
+        // Not while pictures are up: to ask the system takes time.
+        if self.presentation.is_none()
+            && let Some(display) = display(frame)
+            && self.sitting.watch_display(&display)
+        {
+            self.administrator.note_news();
+        }
         let mut orders = self.administrator.attend(ui.ctx(), frame);
         if self.administrator.covers_screen() {
             if !self.sitting.is_paused() {

@@ -11,6 +11,7 @@ use scumble_psychophysics::{Display, Event, Experiment, Moment, Reply, SessionHe
 
 use crate::arguments::ResumePolicy;
 use crate::clock::{Clock, Mark};
+use crate::display;
 use crate::recorder::Recorder;
 use crate::setup::StudyFolder;
 
@@ -20,6 +21,8 @@ pub(crate) struct Sitting {
     recorder: Recorder,
     clock: Clock,
     pause: Option<Pause>,
+    /// Name of the display that the pictures are on; `None` before the first look at it.
+    display: Option<String>,
 }
 
 /// An interruption that has not ended.
@@ -38,7 +41,7 @@ impl Sitting {
     pub(crate) fn fresh(study: StudyFolder, directory: &Path, header: SessionHeader) -> anyhow::Result<Self> {
         let experiment = Experiment::new(header.protocol.clone(), header.seed, header.participant_number)?;
         let recorder = Recorder::plan(study, directory, header)?;
-        Ok(Self { experiment, recorder, clock: Clock::start(), pause: None })
+        Ok(Self { experiment, recorder, clock: Clock::start(), pause: None, display: None })
     }
 
     /// An interrupted session, paused.
@@ -53,7 +56,7 @@ impl Sitting {
         }
         let repeats_round = policy == ResumePolicy::RepeatRound;
         let pause = Some(Pause { began: Mark::now(), earlier_secs, notes, repeats_round });
-        Ok(Self { experiment, recorder, clock, pause })
+        Ok(Self { experiment, recorder, clock, pause, display: None })
     }
 
     /// What happens next.
@@ -106,6 +109,31 @@ impl Sitting {
         self.recorder.append(event);
         self.end_if_finished();
         Ok(())
+    }
+
+    /// Looks at the display under the participant's window. The header has the one on which the session begins; every
+    /// other one, and the one on which a later run of the program goes on, is noted in the record. Gives whether this
+    /// is another one than at the last look.
+    pub(crate) fn watch_display(&mut self, display: &Display) -> bool {
+        let name = display::name(display);
+        if self.display.as_ref() == Some(&name) {
+            return false;
+        }
+        if self.recorder.has_begun() && self.is_open() {
+            let note = format!("shown on {name}");
+            match &mut self.pause {
+                Some(pause) => pause.notes.push(note),
+                None => self.note(note),
+            }
+        }
+        self.display = Some(name);
+        true
+    }
+
+    /// Name of the display that the session is shown on, where that is not the one on which it began.
+    pub(crate) fn other_display(&self) -> Option<&str> {
+        let first = self.recorder.header().display.as_ref().map(display::name)?;
+        self.display.as_deref().filter(|name| *name != first)
     }
 
     /// Hides the pictures; the trial under way is shown anew afterwards.
@@ -201,60 +229,5 @@ pub(crate) fn discard(directory: &Path) -> anyhow::Result<u32> {
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-mod tests {
-    use super::*;
-    use crate::software::software;
-    use scumble_psychophysics::Protocol;
-
-    /// A fresh session of two short rounds, begun.
-    fn begun(directory: &Path) -> Sitting {
-        let mut protocol = Protocol::two_alternative();
-        protocol.practice.ratios.clear();
-        protocol.conditions.contrasts.truncate(1);
-        protocol.conditions.texels_px.truncate(1);
-        (protocol.schedule.trials_min, protocol.schedule.trials_max) = (2, 2);
-        let file = directory.join("short.toml");
-        std::fs::write(&file, protocol.to_toml().unwrap()).unwrap();
-        let folder = StudyFolder::open(&directory.join("study"), file.to_str()).unwrap();
-        let header = SessionHeader::new("p07", protocol, 1, Timestamp::now(), software());
-        let mut sitting = Sitting::fresh(folder, &directory.join("study/p07"), header).unwrap();
-        sitting.proceed(|| None).unwrap();
-        sitting
-    }
-
-    /// Goes on to the first answer of a round.
-    fn answer_in(sitting: &mut Sitting, round: u32) {
-        loop {
-            match sitting.experiment().stage().trial().copied() {
-                None => sitting.proceed(|| None).unwrap(),
-                Some(trial) => {
-                    let answer = trial.pictures.right_answer();
-                    let (pictures_sha256, timing) = (Vec::new(), None);
-                    sitting.answer(Reply { answer, response_time_secs: 1.0, pictures_sha256, timing }).unwrap();
-                    if trial.round == round {
-                        return;
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn an_order_to_repeat_a_round_that_is_over_by_then_repeats_no_other_one() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut sitting = begun(folder.path());
-        answer_in(&mut sitting, 2);
-        let (before, events) = (sitting.experiment().clone(), sitting.recorder().events().len());
-        assert!(!sitting.repeat_round(1));
-        assert_eq!((sitting.experiment(), sitting.recorder().events().len()), (&before, events));
-        assert!(sitting.repeat_round(2));
-        assert!(matches!(sitting.recorder().events().last(), Some(Event::RepeatRound(_))));
-    }
-
-    #[test]
-    fn a_discarded_session_names_the_number_of_its_participant() {
-        let folder = tempfile::tempdir().unwrap();
-        drop(begun(folder.path()));
-        assert_eq!(discard(&folder.path().join("study/p07")).unwrap(), 7);
-    }
-}
+#[path = "sitting_tests.rs"]
+mod tests;

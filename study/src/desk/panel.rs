@@ -84,6 +84,9 @@ fn header(ui: &mut Ui, status: &Status, desk: &mut DeskState, look: Look, words:
     if let Some(problem) = &status.stopped {
         alarm(ui, (words.stopped)(problem), look);
     }
+    if let Some(name) = &status.other_display {
+        alarm(ui, (words.other_display)(name), look);
+    }
     if let Disk::Waiting { problem } = &status.disk {
         alarm(ui, (words.waiting)(problem), look);
     }

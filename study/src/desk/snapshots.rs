@@ -82,6 +82,13 @@ fn what_the_program_cannot_work_around_is_said_at_the_top() {
 }
 
 #[test]
+fn a_display_other_than_the_first_is_said_at_the_top() {
+    let other_display = Some("HDMI-1, 1920 x 1080 pixels, scale factor 1.00, 59.94 Hz".to_owned());
+    let status = Status { other_display, ..mid_round("two-alternative").status() };
+    shot(status, DeskState::default(), Language::English, "other_display");
+}
+
+#[test]
 fn an_order_that_came_too_late_is_said_above_the_orders() {
     let status = Status { refused_round: Some(1), ..mid_round("two-alternative").status() };
     shot(status, DeskState::default(), Language::German, "too_late");

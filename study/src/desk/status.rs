@@ -21,6 +21,8 @@ pub(crate) struct Given<'a> {
     pub(crate) stopped: Option<&'a str>,
     /// Round that was over when its repetition was ordered.
     pub(crate) refused_round: Option<u32>,
+    /// Display on show, where the session began on another one.
+    pub(crate) other_display: Option<&'a str>,
     pub(crate) disk: Disk,
 }
 
@@ -43,6 +45,8 @@ pub(crate) struct Status {
     pub(crate) stopped: Option<String>,
     /// Round that was over when the latest order, to repeat it, came.
     pub(crate) refused_round: Option<u32>,
+    /// Display on show, where the session began on another one.
+    pub(crate) other_display: Option<String>,
     pub(crate) has_practice: bool,
     pub(crate) can_repeat_practice: bool,
     pub(crate) can_repeat_round: bool,
@@ -129,8 +133,7 @@ pub(crate) enum Disk {
 impl Status {
     /// The session as it stands. Errors: responses that a staircase refuses, which no experiment holds.
     pub(crate) fn of(given: Given<'_>, bands: &mut Bands) -> Result<Self, Error> {
-        let Given { experiment, header, events, elapsed_secs, has_begun, is_paused, stopped, refused_round, disk } =
-            given;
+        let Given { experiment, header, events, elapsed_secs, has_begun, is_paused, stopped, .. } = given;
         let (protocol, progress, stage) = (experiment.protocol(), experiment.progress(), *experiment.stage());
         let answers = standing(events);
         let is_over = stage == Stage::Finished || events.last().is_some_and(Event::is_last);
@@ -153,7 +156,8 @@ impl Status {
             is_over,
             is_ended_early: matches!(events.last(), Some(Event::Stop(_) | Event::Discard(_))),
             stopped: stopped.map(str::to_owned),
-            refused_round,
+            refused_round: given.refused_round,
+            other_display: given.other_display.map(str::to_owned),
             has_practice: !protocol.practice.ratios.is_empty(),
             can_repeat_practice: experiment.clone().repeat_practice().is_ok(),
             can_repeat_round: experiment.clone().repeat_round().is_ok(),
@@ -165,7 +169,7 @@ impl Status {
             minutes_left,
             missed_frames: events.iter().filter_map(|event| Some(event.answered()?.timing?.missed_frames)).sum(),
             notes: notes(header, events),
-            disk,
+            disk: given.disk,
         })
     }
 

@@ -81,6 +81,7 @@ impl Rehearsed {
             is_paused,
             stopped: None,
             refused_round: None,
+            other_display: None,
             disk,
         }
     }

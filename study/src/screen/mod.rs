@@ -2,6 +2,7 @@
 
 mod feedback;
 mod finished;
+mod in_charge;
 mod instructions;
 mod page;
 mod paused;
@@ -17,6 +18,7 @@ mod unsaved;
 
 pub(crate) use feedback::feedback;
 pub(crate) use finished::finished;
+pub(crate) use in_charge::in_charge;
 pub(crate) use instructions::{Examples, instructions};
 pub(crate) use paused::paused;
 pub(crate) use refused::refused;

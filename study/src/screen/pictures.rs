@@ -75,6 +75,14 @@ fn pages_between_trials_look_as_they_did() {
 }
 
 #[test]
+fn the_page_before_the_administrators_panel_looks_as_it_did() {
+    let mut results = SnapshotResults::new();
+    for (code, language) in LANGUAGES {
+        check(&mut results, &format!("in_charge_{code}"), |ui| _ = in_charge(ui, &words(language).desk));
+    }
+}
+
+#[test]
 fn pages_of_trouble_look_as_they_did() {
     let mut results = SnapshotResults::new();
     let english = &words(Language::English).participant;

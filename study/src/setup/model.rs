@@ -46,6 +46,8 @@ pub(crate) struct Setup {
     language: Language,
     monitors: Vec<Display>,
     monitor: usize,
+    /// The one that the window is on, which need not be the chosen one; `None` where the system does not tell.
+    found_on: Option<Display>,
     recent: Vec<std::path::PathBuf>,
     study: StudyEntry,
     /// Distance and pixel size.
@@ -70,6 +72,7 @@ impl Setup {
             language,
             monitor: given.monitor.min(given.monitors.len().saturating_sub(1)),
             monitors: given.monitors,
+            found_on: None,
             recent: given.recent.offered(),
             study,
             calibration: Calibration::new(given.px_per_degree),
@@ -109,6 +112,17 @@ impl Setup {
     /// The monitors to choose from, and the index of the chosen one.
     pub(crate) fn monitors(&self) -> (&[Display], usize) {
         (&self.monitors, self.monitor)
+    }
+
+    /// The monitor that the window was found on.
+    pub(crate) fn find_on(&mut self, monitor: Option<Display>) {
+        self.found_on = monitor;
+    }
+
+    /// The monitor that the window is on, where that is not the chosen one.
+    pub(crate) fn elsewhere(&self) -> Option<&Display> {
+        let chosen = self.monitors.get(self.monitor)?;
+        self.found_on.as_ref().filter(|found| *found != chosen)
     }
 
     /// The text to agree to; `None` where the study has none.

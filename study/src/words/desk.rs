@@ -16,6 +16,12 @@ pub(super) use german::GERMAN;
 pub(crate) struct DeskWords {
     pub(crate) title: &'static str,
 
+    // Before the panel, where it is on the participant's screen.
+    pub(crate) in_charge: &'static str,
+    pub(crate) in_charge_text: &'static str,
+    pub(crate) in_charge_on: &'static str,
+    pub(crate) in_charge_back: &'static str,
+
     // Header.
     pub(crate) activity: fn(Activity) -> String,
     /// Whole minutes since the session began.
@@ -24,6 +30,8 @@ pub(crate) struct DeskWords {
     pub(crate) waiting: fn(&str) -> String,
     /// Why the program cannot go on.
     pub(crate) stopped: fn(&str) -> String,
+    /// Display that the session is shown on, where it is not the one that it began on.
+    pub(crate) other_display: fn(&str) -> String,
     pub(crate) dark: &'static str,
     pub(crate) light: &'static str,
 

@@ -45,6 +45,9 @@ pub(crate) struct SetupWords {
     pub(crate) number: &'static str,
     pub(crate) monitor: &'static str,
     pub(crate) monitor_named: fn(&Display) -> String,
+    /// Where the window is, which is not the monitor that was chosen.
+    pub(crate) elsewhere: &'static str,
+    pub(crate) elsewhere_value: fn(&Display) -> String,
     pub(crate) interrupted: &'static str,
     pub(crate) resume: &'static str,
     pub(crate) repeat_round: &'static str,

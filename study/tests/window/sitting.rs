@@ -203,6 +203,11 @@ impl<'a> Sitting<'a> {
         self.moments += 2;
     }
 
+    /// The session was paused and went on.
+    pub fn interrupted(&mut self) {
+        self.moments += 2;
+    }
+
     /// Kills the program.
     pub fn crash(&mut self) {
         self.study.0.kill().unwrap();

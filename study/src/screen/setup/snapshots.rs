@@ -117,6 +117,18 @@ fn the_summary_shows_what_will_be_recorded_and_what_is_missing() {
 }
 
 #[test]
+fn the_summary_says_that_the_window_is_not_on_the_chosen_monitor() {
+    let mut setup = filled_in(Language::English);
+    let [chosen, other] = [0, 1].map(|index| setup.monitors().0[index].clone());
+    for found in [None, Some(chosen)] {
+        setup.find_on(found);
+        assert_eq!(setup.elsewhere(), None);
+    }
+    setup.find_on(Some(other));
+    shot(setup, "summary_elsewhere");
+}
+
+#[test]
 fn the_first_page_fits_the_german_words() {
     shot(Setup::new(Given { language: Language::German, ..given(Path::new(NEW_WHOLE)) }), "study_german");
 }

@@ -35,6 +35,9 @@ pub(super) fn summary(ui: &mut Ui, setup: &Setup, words: &SetupWords) {
     if let Some(monitor) = monitor {
         fact(words.monitor, monitor, false);
     }
+    if let Some(found) = setup.elsewhere() {
+        fact(words.elsewhere, (words.elsewhere_value)(found), true);
+    }
     let distance = measured.viewing_distance_mm;
     fact(words.distance, (words.distance_value)(distance), distance.is_none());
     fact(words.pixel_size, (words.pixel_size_value)(measured.px_per_mm), measured.px_per_mm.is_none());

@@ -8,6 +8,11 @@ use crate::desk::{Activity, Barrier, Chart, MinutesLeft, Point, RoundState, Stat
 
 pub(in crate::words) const ENGLISH: DeskWords = DeskWords {
     title: "Scumble study: administrator",
+    in_charge: "For the person in charge",
+    in_charge_text: "The session is paused. What follows shows how it goes, and is not for the person who takes part: \
+                     it could change how they answer.",
+    in_charge_on: "Show it   Enter",
+    in_charge_back: "Back   Esc",
     activity: |activity| match activity {
         Activity::Instructions => "Reads the instructions".to_owned(),
         Activity::Practice => "Practises".to_owned(),
@@ -26,6 +31,12 @@ pub(in crate::words) const ENGLISH: DeskWords = DeskWords {
         format!(
             "The session cannot go on: {problem}. Close the participant's window; the answers so far are kept, and when \
                  the cause is removed the session goes on from there."
+        )
+    },
+    other_display: |name| {
+        format!(
+            "The session began on another display than it is shown on now: {name}. What was measured of the first one \
+             does not hold here. Move it back, or end the session and set another one up."
         )
     },
     dark: "Dark",

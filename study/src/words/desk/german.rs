@@ -8,6 +8,11 @@ use crate::desk::{Activity, Barrier, Chart, MinutesLeft, Point, RoundState, Stat
 
 pub(in crate::words) const GERMAN: DeskWords = DeskWords {
     title: "Scumble-Studie: Versuchsleitung",
+    in_charge: "Für die Versuchsleitung",
+    in_charge_text: "Die Sitzung ist angehalten. Als Nächstes ist zu sehen, wie sie verläuft. Das ist nicht für die \
+                     Versuchsperson bestimmt, denn es könnte ihre Antworten beeinflussen.",
+    in_charge_on: "Anzeigen   Eingabe",
+    in_charge_back: "Zurück   Esc",
     activity: |activity| match activity {
         Activity::Instructions => "Liest die Anleitung".to_owned(),
         Activity::Practice => "Übt".to_owned(),
@@ -26,6 +31,13 @@ pub(in crate::words) const GERMAN: DeskWords = DeskWords {
         format!(
             "Die Sitzung kann nicht weitergehen. Schließen Sie das Fenster der Versuchsperson; die bisherigen Antworten \
                  bleiben erhalten, und ist die Ursache behoben, geht es dort weiter. Meldung: {problem}"
+        )
+    },
+    other_display: |name| {
+        format!(
+            "Die Sitzung begann auf einem anderen Bildschirm als dem, auf dem sie jetzt zu sehen ist: {name}. Was für \
+             den ersten gemessen wurde, gilt hier nicht. Bringen Sie sie dorthin zurück, oder beenden Sie sie und \
+             richten Sie eine neue ein."
         )
     },
     dark: "Dunkel",

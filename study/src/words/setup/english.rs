@@ -40,6 +40,10 @@ pub(in crate::words) const ENGLISH: SetupWords = SetupWords {
     number: "number for the order of rounds",
     monitor: "Monitor",
     monitor_named,
+    elsewhere: "Window",
+    elsewhere_value: |found| {
+        format!("is on another monitor: {}. Go back to the first page and choose again.", monitor_named(found))
+    },
     interrupted: "That session",
     resume: "Go on with it",
     repeat_round: "Repeat its round",

@@ -40,6 +40,13 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
     number: "Nummer für die Reihenfolge der Runden",
     monitor: "Bildschirm",
     monitor_named,
+    elsewhere: "Fenster",
+    elsewhere_value: |found| {
+        format!(
+            "ist auf einem anderen: {}. Gehen Sie zur ersten Seite zurück und wählen Sie neu.",
+            monitor_named(found)
+        )
+    },
     interrupted: "Diese Sitzung",
     resume: "Fortsetzen",
     repeat_round: "Runde wiederholen",
