@@ -180,8 +180,8 @@ x = log10(level). Rows of one level count as one.
   deviance_p                       probability of such a deviance if the function is right: below 0.05 it
                                    is doubtful (a wrong guess rate, lapses, learning). By bootstrap
   ci95_profile, ci95_bootstrap     95 % intervals by profile likelihood and by parametric bootstrap.
-                                   Report the profile's, which hold the truth more often where answers
-                                   are few; where the two differ much, they are
+                                   Report the profile's, which need no draws; where the two differ much,
+                                   the answers are few
   levels                           p of the fit and deviance residual of each level: beyond +-2 a level
                                    does not fit
   notes                            a sentence for each end that the data do not bound, which is null

@@ -98,8 +98,8 @@ impl Refit {
     /// The fit to `answers` that `parent` gave.
     fn of(answers: &[Count], model: &Model, parent: &Weibull, correct: f64) -> Self {
         const ANY: Allowed = [f64::NEG_INFINITY, f64::INFINITY];
-        let search = Search::of(model);
-        let found = search.from(answers, *parent).or_else(|| search.highest(answers, None));
+        // From the grid too: small tables have several maxima, and the parent's is often not the highest.
+        let found = Search::of(model).highest(answers, Some(parent));
         let place =
             |place: f64, deviance: f64| Self { location: [place; 2], slope: ANY, at_correct: [place; 2], deviance };
         let Some(top) = found else {

@@ -110,7 +110,7 @@ fn both_intervals_cover_the_truth_in_95_of_100_experiments() {
     let x82 = truth.x_at_correct(0.82).unwrap();
     let levels: Vec<f64> = (0..7).map(|step| -0.5 + 0.125 * f64::from(step)).collect();
     let mut draw = ChaCha8Rng::seed_from_u64(1);
-    let experiments = 300;
+    let experiments = 150;
     let mut covered = [[0; 3]; 2];
     let mut estimates = 0;
     for seed in 0..experiments {
@@ -124,7 +124,7 @@ fn both_intervals_cover_the_truth_in_95_of_100_experiments() {
     }
     println!("profile, bootstrap: {covered:?} of {estimates}");
     // The others look like a jump and have no estimate.
-    assert!(estimates >= 294, "{estimates}");
+    assert!(estimates >= 145, "{estimates}");
     for count in covered.as_flattened() {
         assert!(is_plausible(*count, estimates, 0.95), "{covered:?}");
     }
@@ -135,7 +135,7 @@ fn the_p_value_of_the_deviance_is_uniform_under_the_model_and_small_under_anothe
     let truth = Weibull { location: -0.1, slope: 3.0, guess: 0.5, lapse: 0.01 };
     let levels: Vec<f64> = (0..7).map(|step| -0.5 + 0.125 * f64::from(step)).collect();
     let mut draw = ChaCha8Rng::seed_from_u64(2);
-    let experiments = 200;
+    let experiments = 80;
     let mut p_values = |truth: &Weibull, total: u32| -> Vec<f64> {
         let p_value = |seed| Some(report(&answers(truth, &levels, total, &mut draw), &few(seed)).ok()?.deviance_p);
         (0..experiments).filter_map(p_value).collect()
@@ -160,6 +160,14 @@ fn equal_seeds_give_equal_reports_and_other_seeds_others() {
     assert_eq!(reports[0], reports[1]);
     assert_ne!(reports[0].ci95_bootstrap, reports[2].ci95_bootstrap);
     assert_eq!(reports[0].ci95_profile, reports[2].ci95_profile);
+}
+
+#[test]
+fn the_bootstrap_of_the_reference_table_has_the_same_ends_on_every_machine() {
+    let ends = report(&psignifit(), &few(1)).unwrap().ci95_bootstrap.slope_beta.map(Option::unwrap);
+    for (end, expected) in ends.into_iter().zip([2.808_599_802_981_832, 4.950_063_912_840_591]) {
+        assert!((end - expected).abs() < 1e-9, "{ends:?}");
+    }
 }
 
 #[test]
@@ -266,7 +274,7 @@ fn any_table() -> impl Strategy<Value = Vec<Count>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_table_gives_finite_numbers_and_intervals_that_hold_their_value_or_one_line(

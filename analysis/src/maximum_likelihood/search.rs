@@ -97,11 +97,6 @@ impl Search {
         Some(self.climb(counts, start))
     }
 
-    /// The most likely function that steps from `weibull` lead to.
-    pub fn from(&self, counts: &[Count], weibull: Weibull) -> Option<Maximum> {
-        Some(self.climb(counts, Maximum::at(counts, weibull)?))
-    }
-
     /// `ln L`'s gradient and negated Hessian at a function, and what is free there; what is held has no gradient and
     /// unit curvature.
     pub fn derivatives(&self, counts: &[Count], weibull: &Weibull) -> Option<(Vector3<f64>, Matrix3<f64>, [bool; 3])> {
