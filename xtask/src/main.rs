@@ -7,6 +7,7 @@
 mod bids;
 mod demo;
 mod packages;
+mod python;
 mod report;
 mod run;
 mod summary;
