@@ -4,10 +4,11 @@
 //! | Step | Where | Does |
 //! |---|---|---|
 //! | read | [`Study::read`] | replays every session through the experiment's state machine |
-//! | threshold | [`thresholds_of`], [`joint_threshold`] | Weibull function by maximum likelihood ([`fit`]) under [`Assumptions`]: slope and lapses of the protocol, guess rate of the protocol or counted |
-//! | ratio | [`Series`] | per pattern, contrast and kernel: mean of log10 ratios over people with Student's t, beside the published line through the origin |
+//! | ratio | [`Series`], [`MixedModel`] | per pattern, contrast and kernel: one likelihood of every answer, thresholds log-normal over people; beside it the mean of log10 ratios and the published line through the origin |
+//! | threshold | [`thresholds_of`], [`joint_threshold`] | a person's Weibull function by maximum likelihood ([`fit`]) under [`Assumptions`]: everyone's slope and blind trials, guess rate of the protocol or counted |
 //! | worst case | [`Analysis`] | the largest ratio under the first kernel is the renderer's number |
 //! | population | [`Population`] | from the median person to 90, 95, 99 % of viewers |
+//! | what moves it | [`Effect`], [`UnderPrior`] | pattern, contrast, round; the staircases' prior |
 //! | files | [`fit_study`] | relation, report, tables, figures, written together |
 //!
 //! [`Simulation`] makes sessions of observers whose thresholds are known; [`Plan`] foretells from them what a
@@ -15,47 +16,18 @@
 //! record, draw for draw and picture for picture, with what its seed leads to; [`Export`] writes sessions as a
 //! BIDS dataset, for other laboratories' programs.
 //!
-//! # How well it does
+//! How well it does on cohorts with a known truth, and how fast: `docs/analysis.md`.
 //!
-//! Simulated cohorts, `examples/coverage.rs`: log-normal people, median 3.47, between-person SD 0.1
-//! log10, slope 3.5, lapse 0.01, the whole two-alternative protocol; step pattern at 100 % contrast.
+//! # Single pictures
 //!
-//! | | 10 people, 600 cohorts | 20 people, 300 | 40 people, 450 | 10 people of slope 2.5, 150 |
-//! |---|---|---|---|---|
-//! | bias of the ratio | +1.0 % | +1.0 % | +1.2 % | -2.0 % |
-//! | RMS error, log10 | 0.036 | 0.027 | 0.019 | 0.041 |
-//! | coverage of its 95 % interval | 93.8 % | 94.0 % | 91.1 % | 92.0 % |
-//! | worst condition instead: bias, coverage | +1.2 %, 94.0 % | +1.0 %, 93.7 % | +1.2 %, 91.1 % | -1.1 %, 92.0 % |
-//! | line through the origin against 3.47 | +9.3 % | +8.9 % | +9.3 % | +10.1 % |
-//! | exponent 1, intercept 0 rejected at 5 % | 4.8 %, 4.2 % | 5.0 %, 5.3 % | 5.1 %, 5.1 % | 5.3 %, 6.7 % |
-//! | 95 % of viewers at 10 %: bias, coverage | -0.1 %, 99.3 % | +1.0 %, 100 % | +1.7 %, 100 % | -22.7 %, 86.7 % |
-//!
-//! Coverages have a standard error of 1 to 2 %; at 40 people the bias is a third of a standard error
-//! and the interval covers too rarely. The mean over three separate fits per person, one a
-//! texel size, overstated the ratio by 5 % and covered in 90 % of cohorts; the line through the origin
-//! inherits that and adds 3 % because its target is the mean person. The population interval is wide
-//! when the slope is the assumed one, because it allows for others; with people of slope 2.5, at the
-//! edge of what it allows, it is too narrow.
-//!
-//! # What a protocol makes of it
-//!
-//! Command `plan`, 1000 sessions each, step at 100 % contrast: bias of a person's ratio, standard
-//! deviation of one measurement, and coverage of the interval of ten people (standard error 2 to 5 %).
-//!
-//! | people | two-alternative | yes-no | published |
-//! |---|---|---|---|
-//! | of high threshold, false alarms 10 % | +1.0 %, 0.042 log10, 94 % | +0.4 %, 0.037, 94 % | -12 %, 0.031, 69 % |
-//! | of signal detection, false alarms 10 % | +2.2 %, 0.039, 94 % | -7.6 %, 0.028, 87 % | -16 %, 0.023, 46 % |
-//!
-//! The published protocol assumes a guess rate of one half where these people guess in a tenth of the
-//! trials. The yes-no fit takes the counted false alarms out as a high threshold would, `(H - F) / (1 - F)`;
-//! of a person with noisy traces and a strict criterion that leaves too few artifacts told. Two
-//! alternatives need neither assumption.
+//! The yes-no fit takes the counted false alarms out as a high threshold would, `(H - F) / (1 - F)`; of a person with
+//! noisy traces and a strict criterion that leaves too few artifacts told: the ratio is 8 % low at 10 % false alarms, and
+//! 16 % low where a guess rate of one half is assumed (the published protocol). Two alternatives need neither assumption.
 //!
 //! # Limits
 //!
-//! The slope is held at the protocol's. The interval of the worst condition ignores that it was chosen
-//! after seeing the data. Data that carry no threshold, interval or fit are refused with the reason;
+//! The slope is estimated under a weak prior, because staircases hardly measure it; what leans on it, rare detection, has
+//! wide intervals. The interval of the worst condition ignores that it was chosen after seeing the data. Data that carry no threshold, interval or fit are refused with the reason;
 //! no function here returns NaN for them.
 
 mod analysis;
