@@ -72,6 +72,8 @@ impl Assumptions {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
     use crate::checks::Checks;
 
@@ -87,7 +89,7 @@ mod tests {
     #[test]
     fn the_guess_rate_is_counted_where_lines_were_shown() {
         let protocol = Protocol::named("yes-no").unwrap();
-        let person = |checks| Person { code: "p".to_owned(), tracks: Vec::new(), checks };
+        let person = |checks| Person { code: "p".to_owned(), tracks: Vec::new(), checks, excluded: BTreeMap::new() };
         let of = |checks| Assumptions::of_person(&person(checks), &protocol);
         assert_eq!(of(Checks::default()).guess, 0.2);
         let counted = of(Checks { lines: 99, false_alarms: 9, ..Checks::default() });

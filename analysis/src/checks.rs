@@ -5,7 +5,7 @@
 
 use std::ops::Add;
 
-use scumble_psychophysics::{Event, Role, standing};
+use scumble_psychophysics::{Answered, Role};
 
 /// How often each kind was shown, and how often it was taken for an artifact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -21,10 +21,10 @@ pub struct Checks {
 }
 
 impl Checks {
-    /// Counts the answers of a session that stand.
-    pub fn of(events: &[Event]) -> Self {
+    /// Counts answers.
+    pub fn of(answers: &[&Answered]) -> Self {
         let mut checks = Self::default();
-        for answered in standing(events) {
+        for answered in answers {
             let correct = u32::from(answered.correct);
             match answered.trial.role {
                 Role::Line => {

@@ -30,7 +30,7 @@ use labels::unique_labels;
 
 use crate::{
     Error,
-    load::{LoadedSession, check_kind, load_sessions},
+    load::{LoadedSession, NEVER_BEGAN, Sessions, check_kind, load_sessions},
 };
 
 /// Sessions that are ready to be written as a dataset.
@@ -51,7 +51,9 @@ impl Export {
     /// people among humans, the session without onsets; no session that is left to export.
     pub fn read(paths: &[PathBuf]) -> Result<Self, Error> {
         let (mut kept, mut left_out) = (Vec::new(), Vec::new());
-        for (loaded, _) in load_sessions(paths)? {
+        let Sessions { loaded, never_began } = load_sessions(paths)?;
+        left_out.extend(never_began.into_iter().map(|path| (path, NEVER_BEGAN)));
+        for (loaded, _) in loaded {
             match reason_to_leave_out(&loaded.session) {
                 Some(reason) => left_out.push((loaded.session.directory, reason)),
                 None => kept.push(loaded),

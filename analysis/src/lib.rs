@@ -56,6 +56,7 @@ mod population;
 mod population_figure;
 mod prior_sensitivity;
 mod profile_likelihood;
+mod protocols;
 mod psychometric_figure;
 mod quest_table;
 mod reach;

@@ -10,7 +10,7 @@ use std::{
 };
 
 use rayon::prelude::*;
-use scumble_psychophysics::{EVENTS_FILE, Experiment, HEADER_FILE, Session, read_session};
+use scumble_psychophysics::{EVENTS_FILE, Error::NeverBegan, Experiment, HEADER_FILE, Session, read_session};
 use sha2::{Digest, Sha256};
 
 use crate::Error;
@@ -24,18 +24,36 @@ pub struct LoadedSession {
     pub sha256: String,
 }
 
-/// Reads sessions, each with the experiment at its end, by path; each of `paths` is a session or a folder of sessions.
+/// What lies in folders of sessions.
+pub(crate) struct Sessions {
+    /// Each with the experiment at its end, by path.
+    pub loaded: Vec<(LoadedSession, Experiment)>,
+    /// Folders of sessions that ended before their header was whole.
+    pub never_began: Vec<PathBuf>,
+}
+
+/// Why a session that never began is left out.
+pub(crate) const NEVER_BEGAN: &str = "the session ended before its header was whole, and so before the first answer";
+
+/// Reads sessions; each of `paths` is a session or a folder of sessions.
 ///
 /// # Errors
 /// Names the folder without sessions, the damaged file and line, or the copy of a session.
-pub(crate) fn load_sessions(paths: &[PathBuf]) -> Result<Vec<(LoadedSession, Experiment)>, Error> {
+pub(crate) fn load_sessions(paths: &[PathBuf]) -> Result<Sessions, Error> {
     let mut directories = Vec::new();
     for path in paths {
         directories.extend(session_directories(path)?);
     }
     directories.sort();
     directories.dedup();
-    let loaded: Vec<_> = directories.par_iter().map(|path| load(path)).collect::<Result<_, Error>>()?;
+    let (mut loaded, mut never_began) = (Vec::new(), Vec::new());
+    let read: Vec<_> = directories.par_iter().map(|path| load(path)).collect();
+    for (session, directory) in read.into_iter().zip(directories) {
+        match session {
+            Err(Error::Psychophysics(NeverBegan { .. })) => never_began.push(directory),
+            other => loaded.push(other?),
+        }
+    }
     let mut known: BTreeMap<&str, &Path> = BTreeMap::new();
     for (LoadedSession { session, sha256 }, _) in &loaded {
         if let Some(original) = known.insert(sha256, &session.directory) {
@@ -43,7 +61,7 @@ pub(crate) fn load_sessions(paths: &[PathBuf]) -> Result<Vec<(LoadedSession, Exp
             return Err(Error::File { path: session.directory.join(HEADER_FILE), reason });
         }
     }
-    Ok(loaded)
+    Ok(Sessions { loaded, never_began })
 }
 
 /// Refuses a simulated person beside a human.

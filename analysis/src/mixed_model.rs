@@ -198,7 +198,7 @@ impl MixedModel {
     fn check(&self) -> Result<(), Error> {
         if self.people.len() < 2 {
             return Err(Error::CannotFit(format!(
-                "an interval over people needs at least 2 people with answers, found {}",
+                "an interval over people needs at least 2 people with answers, found {}; ten make it narrow enough to use",
                 self.people.len()
             )));
         }

@@ -1,18 +1,26 @@
 //! Sessions become people with answers.
 //!
 //! The convergence rule is the experiment's own, which replayed every session. Sessions of one participant code
-//! are one person. All sessions must share one protocol; simulated people and humans are not mixed. A session that
-//! the administrator discarded is left out with a notice; of one that was ended early the answers count.
+//! are one person. All sessions must share one protocol, but for what changes no answer's meaning
+//! (name, schedule, convergence, practice, centres of priors); simulated people and humans are not mixed. A session that the administrator
+//! discarded, or without an answer that stands, is left out with a notice; of one that was ended early the answers count.
+//! Answers and people that the protocol's exclusions name are left out, each with its reason.
 
-use std::{collections::BTreeMap, path::PathBuf};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::PathBuf,
+};
 
 use scumble_core::SessionHash;
-use scumble_psychophysics::{Condition, EVENTS_FILE, Event, Experiment, HEADER_FILE, Protocol, Reason, Role, Round};
+use scumble_psychophysics::{
+    Answered, Condition, Event, Exclusions, Experiment, HEADER_FILE, Protocol, Reason, Role, Round, Session, standing,
+};
 
 use crate::{
     Error,
     checks::Checks,
-    load::{LoadedSession, check_kind, directory_name, load_sessions},
+    load::{LoadedSession, NEVER_BEGAN, Sessions, check_kind, directory_name, load_sessions},
+    protocols::first_difference,
     series::round_of,
 };
 
@@ -59,6 +67,8 @@ pub struct Person {
     pub tracks: Vec<Track>,
     /// The answers to the trials between them.
     pub checks: Checks,
+    /// How many answers the protocol's exclusions leave out, by reason.
+    pub excluded: BTreeMap<&'static str, u32>,
 }
 
 impl Person {
@@ -72,19 +82,34 @@ impl Person {
             }
         }
         let place = |round: Round| rounds.iter().position(|other| *other == round).map_or(0, |index| index as u32 + 1);
+        let rules = experiment.protocol().exclusions.unwrap_or_default();
+        let (kept, left_out): (Vec<&Answered>, Vec<&Answered>) = standing(events)
+            .into_iter()
+            .filter(|answered| answered.trial.role != Role::Practice)
+            .partition(|answered| rules.of_response_time(answered.response_time_secs).is_none());
         let runs_of = |condition: &Condition| {
-            let here = experiment.tracks().iter().filter(|track| track.condition() == condition);
-            here.map(|track| Run {
-                prior_ratio: track.prior_ratio(),
+            let tracks = experiment.tracks().iter().zip(0..).filter(|(track, _)| track.condition() == condition);
+            let run_of = |(track, index)| Run {
+                prior_ratio: scumble_psychophysics::Track::prior_ratio(track),
                 round: place(round_of(condition)),
-                responses: track.responses().to_vec(),
+                responses: kept
+                    .iter()
+                    .filter(|answered| answered.trial.role == Role::Measure && answered.trial.track == Some(index))
+                    .map(|answered| (answered.trial.intensity(), answered.correct))
+                    .collect(),
                 unconverged: track.verdict().reasons(),
-            })
-            .collect()
+            };
+            tracks.map(run_of).collect()
         };
+        let mut excluded = BTreeMap::new();
+        for answered in left_out {
+            if let Some(reason) = rules.of_response_time(answered.response_time_secs) {
+                *excluded.entry(reason).or_default() += 1;
+            }
+        }
         let conditions = experiment.protocol().all_conditions().into_iter();
         let tracks = conditions.map(|condition| Track { runs: runs_of(&condition), condition }).collect();
-        Self { code: code.to_owned(), tracks, checks: Checks::of(events) }
+        Self { code: code.to_owned(), tracks, checks: Checks::of(&kept), excluded }
     }
 
     /// Adds the answers of a further session.
@@ -93,6 +118,33 @@ impl Person {
             track.runs.extend(more.runs);
         }
         self.checks = self.checks + other.checks;
+        for (reason, count) in other.excluded {
+            *self.excluded.entry(reason).or_default() += count;
+        }
+    }
+
+    /// Why the protocol's exclusions leave the person out; `None` where they do not.
+    fn exclusion(&self, rules: &Exclusions) -> Option<String> {
+        let Checks { lines, false_alarms, catches, catches_seen } = self.checks;
+        let missed = catches - catches_seen;
+        let is_above = |count: u32, of: u32, most: Option<f64>| {
+            most.is_some_and(|most| of > 0 && f64::from(count) > most * f64::from(of))
+        };
+        if is_above(missed, catches, rules.catch_misses_max) {
+            let most = rules.catch_misses_max.unwrap_or_default();
+            return Some(format!("missed {missed} of {catches} catch trials; the protocol allows a share of {most}"));
+        }
+        if is_above(false_alarms, lines, rules.false_alarms_max) {
+            let most = rules.false_alarms_max.unwrap_or_default();
+            return Some(format!(
+                "called {false_alarms} of {lines} lines artifacts; the protocol allows a share of {most}"
+            ));
+        }
+        None
+    }
+
+    fn has_answers(&self) -> bool {
+        self.tracks.iter().any(|track| track.responses().next().is_some())
     }
 }
 
@@ -103,6 +155,8 @@ pub struct Study {
     pub protocol: Protocol,
     /// The people, by code.
     pub people: Vec<Person>,
+    /// Codes of the people whom the protocol's exclusions leave out.
+    pub excluded_people: BTreeSet<String>,
     /// The sessions, by path; empty for a study that never was on disk.
     pub sessions: Vec<LoadedSession>,
     /// What the reader dropped or missed, in sentences.
@@ -116,12 +170,14 @@ impl Study {
     /// Names the folder without sessions, the damaged file and line, the session with another
     /// protocol, or the copy of a session.
     pub fn read(paths: &[PathBuf]) -> Result<Self, Error> {
-        let (loaded, discarded): (Vec<_>, Vec<_>) =
-            load_sessions(paths)?.into_iter().partition(|(loaded, _)| !loaded.session.is_discarded());
-        let left_out = discarded.iter().map(|(LoadedSession { session, .. }, _)| {
-            format!("{}: the administrator discarded the session; it is left out", session.directory.display())
-        });
-        let mut notices: Vec<String> = left_out.collect();
+        let Sessions { loaded: all, never_began } = load_sessions(paths)?;
+        let of_path = |path: PathBuf| format!("{}: left out: {NEVER_BEGAN}", path.display());
+        let mut notices: Vec<String> = never_began.into_iter().map(of_path).collect();
+        let (loaded, left_out): (Vec<_>, Vec<_>) =
+            all.into_iter().partition(|(loaded, _)| reason_to_leave_out(&loaded.session).is_none());
+        notices.extend(left_out.iter().filter_map(|(LoadedSession { session, .. }, _)| {
+            Some(format!("{}: left out: {}", session.directory.display(), reason_to_leave_out(session)?))
+        }));
         check_alike(&loaded)?;
         let Some((first, _)) = loaded.first() else {
             let reason = match notices.is_empty() {
@@ -150,8 +206,31 @@ impl Study {
                 None => _ = people.insert(person.code.clone(), person),
             }
         }
+        for code in people.keys() {
+            let count = loaded.iter().filter(|(loaded, _)| loaded.session.header.participant == *code).count();
+            if count > 1 {
+                notices.push(format!("{code}: {count} sessions of this code are taken for one person's"));
+            }
+        }
         let sessions = loaded.into_iter().map(|(session, _)| session).collect();
-        Ok(Self { protocol, people: people.into_values().collect(), sessions, notices })
+        let (people, excluded_people) = apply_exclusions(people.into_values(), &protocol, &mut notices);
+        if people.is_empty() {
+            return Err(Error::CannotFit(notices.join("; ")));
+        }
+        Ok(Self { protocol, people, excluded_people, sessions, notices })
+    }
+
+    /// The study of people who never were on disk; those whom the protocol excludes are left out with a notice.
+    ///
+    /// # Errors
+    /// Nobody is left.
+    pub fn of(protocol: Protocol, people: Vec<Person>) -> Result<Self, Error> {
+        let mut notices = Vec::new();
+        let (people, excluded_people) = apply_exclusions(people.into_iter(), &protocol, &mut notices);
+        if people.is_empty() {
+            return Err(Error::CannotFit(notices.join("; ")));
+        }
+        Ok(Self { protocol, people, excluded_people, sessions: Vec::new(), notices })
     }
 
     /// Number of measured trials.
@@ -175,18 +254,49 @@ impl Study {
     }
 }
 
-/// Refuses a session without a measured trial, a second protocol, and humans among simulated people.
+/// Why a session does not enter a fit; `None` where it does.
+fn reason_to_leave_out(session: &Session) -> Option<&'static str> {
+    let has_answers = || session.standing().iter().any(|answered| answered.trial.role == Role::Measure);
+    match session.is_discarded() {
+        true => Some("the administrator discarded the session"),
+        false if !has_answers() => Some("the session has no measured trial that stands"),
+        false => None,
+    }
+}
+
+/// Splits people by the protocol's exclusions; what is left out gets a sentence among the notices.
+fn apply_exclusions(
+    people: impl Iterator<Item = Person>,
+    protocol: &Protocol,
+    notices: &mut Vec<String>,
+) -> (Vec<Person>, BTreeSet<String>) {
+    let rules = protocol.exclusions.unwrap_or_default();
+    let (mut kept, mut excluded) = (Vec::new(), BTreeSet::new());
+    for person in people {
+        let code = &person.code;
+        notices.extend(
+            person.excluded.iter().map(|(reason, count)| format!("{code}: answers left out: {count} {reason}")),
+        );
+        let no_answer = || (!person.has_answers()).then(|| "no answer is left".to_owned());
+        match person.exclusion(&rules).or_else(no_answer) {
+            Some(reason) => {
+                notices.push(format!("{code}: left out: {reason}"));
+                excluded.insert(code.clone());
+            }
+            None => kept.push(person),
+        }
+    }
+    (kept, excluded)
+}
+
+/// Refuses protocols that give an answer another meaning, and humans among simulated people.
 fn check_alike(loaded: &[(LoadedSession, Experiment)]) -> Result<(), Error> {
     let Some((first, _)) = loaded.first() else { return Ok(()) };
     let first = &first.session;
     for (LoadedSession { session, .. }, _) in loaded {
-        if !session.standing().iter().any(|answered| answered.trial.role == Role::Measure) {
-            let reason = "the session has no measured trial that stands; leave it out".to_owned();
-            return Err(Error::File { path: session.directory.join(EVENTS_FILE), reason });
-        }
-        if session.header.protocol != first.header.protocol {
+        if let Some(difference) = first_difference(&first.header.protocol, &session.header.protocol)? {
             let other = first.directory.display();
-            let reason = format!("its protocol differs from that of {other}; a fit takes one protocol");
+            let reason = format!("its protocol differs from that of {other}: {difference}");
             return Err(Error::File { path: session.directory.join(HEADER_FILE), reason });
         }
         check_kind(first, session)?;

@@ -81,12 +81,8 @@ impl Simulation {
             let (experiment, events) = self.run(index)?;
             Ok(Person::of(&code(index), &experiment, &events))
         };
-        Ok(Study {
-            protocol: self.protocol.clone(),
-            people: (0..self.observers).into_par_iter().map(person).collect::<Result<_, Error>>()?,
-            sessions: Vec::new(),
-            notices: Vec::new(),
-        })
+        let people = (0..self.observers).into_par_iter().map(person).collect::<Result<_, Error>>()?;
+        Study::of(self.protocol.clone(), people)
     }
 
     /// Writes a session directory per person below `out`, and calls `finished` after each.

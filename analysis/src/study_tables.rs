@@ -41,6 +41,7 @@ struct TrialRow<'a> {
     answer: &'static str,
     correct: u8,
     response_time_secs: f64,
+    excluded: &'static str,
 }
 
 #[derive(Serialize)]
@@ -63,11 +64,13 @@ struct ThresholdRow<'a> {
 }
 
 /// All answers after practice that stand as CSV: tidy, one row a trial. Thresholds use the rows whose role is
-/// `measure`; `track` is the staircase of the session, counted from 0, and empty for a catch trial.
+/// `measure` and whose `excluded` is empty: it says why the protocol leaves the answer out, `person` where it does so with
+/// all of a person's. `track` is the staircase of the session, counted from 0, and empty for a catch trial.
 ///
 /// # Errors
 /// The writer's.
 pub fn trials_csv(study: &Study) -> Result<String, Error> {
+    let rules = study.protocol.exclusions.unwrap_or_default();
     let rows = study.sessions.iter().flat_map(|loaded| {
         let session = &loaded.session;
         let name = directory_name(&session.directory);
@@ -98,6 +101,10 @@ pub fn trials_csv(study: &Study) -> Result<String, Error> {
             answer: answer_name(answered.answer),
             correct: answered.correct.into(),
             response_time_secs: answered.response_time_secs,
+            excluded: match study.excluded_people.contains(person) {
+                true => "person",
+                false => rules.of_response_time(answered.response_time_secs).unwrap_or_default(),
+            },
         };
         writer.serialize(row).map_err(|error| table_error(TRIALS_TABLE, error))?;
     }

@@ -233,11 +233,6 @@ fn every_damage_to_a_session_is_named_with_file_and_line() {
     edit(folder.path(), HEADER_FILE, |text| text[..text.len() / 2].to_owned());
     let message = refusal(folder.path());
     assert!(message.contains("session.json"), "{message}");
-
-    let folder = sessions();
-    fs::remove_file(folder.path().join("sim-0002").join(EVENTS_FILE)).unwrap();
-    let message = refusal(folder.path());
-    assert!(message.contains("sim-0002") && message.contains("events.jsonl"), "{message}");
 }
 
 #[test]
@@ -269,11 +264,14 @@ fn a_copy_of_a_session_and_another_protocol_are_refused() {
 
     let folder = sessions();
     let mut other = simulation(1, 11);
-    other.protocol.schedule.trials_max += 1;
+    other.protocol.pictures.dithered = false;
     other.write(&folder.path().join("sub"), || ()).unwrap();
     let paths = [folder.path().to_path_buf(), folder.path().join("sub")];
     let message = Study::read(&paths).unwrap_err().to_string();
-    assert!(message.contains("protocol differs"), "{message}");
+    assert!(
+        message.contains("protocol differs") && message.contains("pictures.dithered is true and false"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -339,7 +337,7 @@ fn a_discarded_session_is_left_out_and_one_that_was_ended_early_is_told() {
     let study = read(folder.path()).unwrap();
     assert_eq!((study.people.len(), study.sessions.len()), (2, 2));
     let [notice] = &study.notices[..] else { panic!("{:?}", study.notices) };
-    assert!(notice.ends_with("sim-0002: the administrator discarded the session; it is left out"), "{notice}");
+    assert!(notice.ends_with("sim-0002: left out: the administrator discarded the session"), "{notice}");
     let message = read(&folder.path().join("sim-0002")).unwrap_err().to_string();
     assert!(message.contains("the administrator discarded the session"), "{message}");
 }

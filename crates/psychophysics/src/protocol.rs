@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::convergence::Convergence;
 use crate::error::Error;
+use crate::exclusions::Exclusions;
 use crate::staircase::Staircase;
 use crate::staircase_config::StaircaseConfig;
 use crate::trial::Condition;
@@ -39,6 +40,9 @@ pub struct Protocol {
     /// Lines alone among the artifacts of a yes-no task; none without this table.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line_trials: Option<LineTrials>,
+    /// What does not enter a fit; everything does without this table.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exclusions: Option<Exclusions>,
 }
 
 /// What the participant is asked and what a response of 1 means.

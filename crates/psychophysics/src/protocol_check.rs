@@ -36,6 +36,7 @@ impl Protocol {
         self.check_schedule()?;
         self.check_catch_trials()?;
         self.check_line_trials()?;
+        self.exclusions.unwrap_or_default().check()?;
         self.convergence.check()?;
         self.check_staircase()
     }
