@@ -34,7 +34,7 @@ pub struct Figures {
     pub residuals: String,
     /// Viewers and ratios.
     pub population: String,
-    /// Tracks: person by person, [`DRAWN_MOST`] people at most.
+    /// Tracks, person by person: of the first forty people.
     pub staircases: Vec<(String, String)>,
 }
 

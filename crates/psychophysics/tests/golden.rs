@@ -32,6 +32,8 @@ fn directory(schema: u32, name: &str) -> PathBuf {
 /// rests, lines, catch trials.
 fn protocol(name: &str) -> Protocol {
     let mut protocol = small(name);
+    // The recorded protocols are older than the shipped ones' exclusions.
+    protocol.exclusions = None;
     protocol.conditions.patterns = vec![Pattern::Stair, Pattern::Step, Pattern::DoubleStep];
     protocol.conditions.kernels = vec![Kernel::Disc, Kernel::GaussianHalf];
     protocol.conditions.contrasts = vec![0.5];
