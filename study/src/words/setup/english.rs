@@ -26,8 +26,8 @@ pub(in crate::words) const ENGLISH: SetupWords = SetupWords {
     },
     effort,
     protocol_first: "Name the study's folder first: it may hold a protocol already.",
-    protocol_new: "A new study: a copy of this protocol is put into its folder when the first session begins, \
-                   for every participant after.",
+    protocol_new: "No study is in this folder yet: a new one begins, with a copy of this protocol for every \
+                   participant after.",
     protocol_kept: "From protocol.toml in the study's folder, the same for every participant.",
     language: "Language",
     participant: "Participant's code",

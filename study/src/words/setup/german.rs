@@ -26,7 +26,7 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
     },
     effort,
     protocol_first: "Nennen Sie zuerst den Ordner der Studie: Vielleicht liegt dort schon ein Protokoll.",
-    protocol_new: "Eine neue Studie: Mit der ersten Sitzung kommt eine Kopie dieses Protokolls in den Ordner, für \
+    protocol_new: "In diesem Ordner ist noch keine Studie: Eine neue beginnt, mit einer Kopie dieses Protokolls für \
                    alle weiteren Personen.",
     protocol_kept: "Aus protocol.toml im Ordner der Studie, für alle Personen dasselbe.",
     language: "Sprache",
