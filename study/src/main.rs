@@ -33,7 +33,7 @@ use std::rc::Rc;
 use anyhow::Context;
 use clap::Parser;
 use eframe::egui;
-use scumble_psychophysics::Protocol;
+use scumble_psychophysics::{Error, Protocol};
 
 use crate::arguments::{Arguments, ResumePolicy};
 use crate::outcome::Outcome;
@@ -123,10 +123,13 @@ fn session(arguments: &Arguments) -> anyhow::Result<(Sitting, MeasuredDisplay)> 
 /// What the study's folder holds of the participant.
 fn found(arguments: &Arguments) -> anyhow::Result<Found> {
     let (folder, code) = (arguments.study_folder(), arguments.participant_code());
-    find(&folder, &code).with_context(|| {
-        let folder = folder.display();
-        format!("{folder} holds a session of {code} already that cannot be read; another --participant begins one")
-    })
+    match find(&folder, &code) {
+        Err(in_use @ Error::SessionInUse(_)) => Err(in_use.into()),
+        other => other.with_context(|| {
+            let folder = folder.display();
+            format!("{folder} holds a session of {code} already that cannot be read; another --participant begins one")
+        }),
+    }
 }
 
 fn complete(directory: &Path) -> anyhow::Error {

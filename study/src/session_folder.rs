@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use scumble_psychophysics::{EVENTS_FILE, Error, HEADER_FILE, read_session};
+use scumble_psychophysics::{EVENTS_FILE, Error, HEADER_FILE, is_being_written, read_session};
 
 use crate::clock::secs_between;
 
@@ -30,7 +30,8 @@ pub(crate) struct Interrupted {
     pub(crate) trials_at_most: u32,
 }
 
-/// Looks for the sessions of a participant; errors are those of reading the last one.
+/// Looks for the sessions of a participant; errors are those of reading the last one, and that it is being written: it is
+/// not interrupted then.
 pub(crate) fn find(study: &Path, code: &str) -> Result<Found, Error> {
     let folder = |number: u32| match number {
         1 => study.join(code),
@@ -53,6 +54,9 @@ pub(crate) fn find(study: &Path, code: &str) -> Result<Found, Error> {
     }
     if session.is_closed() {
         return Ok(Found::Free(folder(last + 1)));
+    }
+    if is_being_written(&directory) {
+        return Err(Error::SessionInUse(directory));
     }
     let progress = session.replay()?.progress();
     let age_secs = secs_between(session.last_known_at(), jiff::Timestamp::now());
@@ -104,6 +108,8 @@ mod tests {
         discard(&first).unwrap();
         let (second, mut sitting) = begin(&study);
         assert_eq!(second, study.join("p07.2"));
+        let refused = find(&study, "p07").unwrap_err();
+        assert!(matches!(refused, Error::SessionInUse(_)), "nobody is told that a running session was interrupted");
         sitting.stop();
         let (third, mut sitting) = begin(&study);
         assert_eq!(third, study.join("p07.3"));

@@ -111,7 +111,7 @@ pub use quest::Quest;
 pub use quest_config::{PlacementRule, QuestConfig};
 pub use quest_plus::{QuestPlus, QuestPlusConfig};
 pub use read::{Session, read_session};
-pub use record::{EVENTS_FILE, HEADER_FILE, SessionWriter};
+pub use record::{EVENTS_FILE, HEADER_FILE, SessionWriter, is_being_written};
 pub use rehearse::rehearse;
 pub use signal_detection_observer::{EXPONENT_OF_SLOPE_3_5, SignalDetectionObserver};
 pub use stage::Stage;

@@ -140,6 +140,12 @@ impl SessionWriter {
     }
 }
 
+/// Whether a program, this one or another, writes the session now.
+pub fn is_being_written(directory: &Path) -> bool {
+    let Ok(file) = File::open(directory.join(EVENTS_FILE)) else { return false };
+    matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
+}
+
 /// The bytes of the header's file.
 pub(crate) fn json_of(path: &Path, header: &SessionHeader) -> Result<Vec<u8>, Error> {
     let mut json = serde_json::to_vec_pretty(header).map_err(|error| Error::io(path)(error.into()))?;

@@ -122,10 +122,13 @@ fn a_second_program_on_one_session_is_refused_in_words_and_the_first_goes_on() {
     let screen = Screen::start([1280, 800]);
     let mut sitting = Sitting::start(&screen, folder.path(), short("two-alternative"), 25, &[]);
     while sitting.next().is_some() {
-        let second = sitting.resuming(&["--resume"]).output().unwrap();
-        assert!(!second.status.success());
-        let words = String::from_utf8(second.stderr).unwrap();
-        assert!(words.contains("someone") && words.contains("another program"), "{words}");
+        for policy in [&["--resume"][..], &[]] {
+            let second = sitting.resuming(policy).output().unwrap();
+            assert!(!second.status.success());
+            let words = String::from_utf8(second.stderr).unwrap();
+            assert!(words.contains("someone") && words.contains("another program"), "{words}");
+            assert!(!words.contains("interrupted"), "{words}");
+        }
         sitting.answer_left(true);
     }
     sitting.finish();
