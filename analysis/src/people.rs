@@ -244,6 +244,18 @@ impl Study {
         self.sessions.iter().any(|loaded| loaded.session.header.simulated_observer.is_some())
     }
 
+    /// Geometric mean of the simulated people's own thresholds in a round, as ratios; `None` for humans, and for observers
+    /// whose thresholds follow from the pictures.
+    pub fn true_ratio(&self, round: Round) -> Option<f64> {
+        let condition = self.protocol.all_conditions().into_iter().find(|condition| round_of(condition) == round)?;
+        let log10 = |loaded: &LoadedSession| {
+            let observer = loaded.session.header.simulated_observer.as_ref()?;
+            Some(observer.threshold_ratio(&condition)?.log10())
+        };
+        let all: Vec<f64> = self.sessions.iter().map(log10).collect::<Option<_>>()?;
+        (!all.is_empty()).then(|| 10_f64.powf(all.iter().sum::<f64>() / all.len() as f64))
+    }
+
     /// Name and content hash of every session.
     pub fn session_hashes(&self) -> Vec<SessionHash> {
         let of = |loaded: &LoadedSession| SessionHash {

@@ -92,12 +92,15 @@ fn result(study: &Study, analysis: &Analysis) -> String {
     let worst = analysis.worst();
     let [low, high] = worst.ratio_ci95();
     let who = if study.is_simulated() { "simulated people" } else { "people" };
+    let truth = study.true_ratio(worst.round).map_or(String::new(), |ratio| {
+        format!(" The geometric mean of these people's true thresholds in the worst condition is {ratio:.2} texels.")
+    });
     let simulated = match study.is_simulated() {
-        true => {
+        true => format!(
             "<p class=\"notice\">Every answer comes from a <strong>simulated</strong> observer. \
-                 This page shows that the method works, not what people see.</p>\n"
-        }
-        false => "",
+             This page shows that the method works, not what people see.{truth}</p>\n"
+        ),
+        false => String::new(),
     };
     format!(
         "<h1>Radius to texel</h1>\n<p>How large must a filter's radius be, in texels of the shadow \

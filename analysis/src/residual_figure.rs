@@ -31,7 +31,7 @@ pub fn residual_figure(analysis: &Analysis) -> Result<String, Error> {
         }
         let lines = [
             "dots: people · ring: geometric mean over people with its 95 % interval",
-            "at 1 the radius grows with the texel as r = c a says; a slope across the sizes speaks against it",
+            "at 1 a person's radius is the person's ratio times the texel size, as r = c a says; a slope speaks against it",
         ];
         draw_foot(&foot, &lines)
     })
@@ -68,7 +68,7 @@ fn draw_panel(panel: &Area<'_>, series: &Series) -> Result<(), DrawError> {
         .bold_line_style(GRID)
         .axis_style(GREY)
         .x_desc("texel size, pixels of the screen")
-        .y_desc("radius / (c a)")
+        .y_desc("radius / (own ratio x size)")
         .x_label_formatter(&|x| format!("{x}"))
         .y_label_formatter(&|y| format!("{y}"))
         .label_style(text(14, INK))

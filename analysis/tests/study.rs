@@ -147,6 +147,7 @@ fn the_report_is_one_file_without_references_and_says_that_people_are_simulated(
     let (folder, out) = (sessions(), tempfile::tempdir().unwrap());
     fit_study(&read(folder.path()).unwrap(), out.path()).unwrap();
     let page = fs::read_to_string(out.path().join(REPORT)).unwrap();
+    assert!(page.contains("The geometric mean of these people's true thresholds"), "a reader can compare");
     for reference in ["src=", "href=", "@import", "url("] {
         assert!(!page.contains(reference), "{reference}");
     }

@@ -40,7 +40,7 @@ pub(super) fn in_words(study: &Study, analysis: &Analysis) -> String {
     format!(
         "<h2>In words</h2>\n<blockquote><p>{} {who} {task} in {} measured trials of the protocol \u{201c}{}\u{201d} (texels of {} px, \
          staircases with {} placement). All answers of a condition were fitted by a mixed-effects Weibull model (complementary log-log link) with \
-         log-normal thresholds over people and a shared slope and share of blind trials, by maximum likelihood with weak \
+         log-normal thresholds over people and a shared slope and share of blind trials (answered without looking: lapses), by maximum likelihood with weak \
          priors on slope and blind trials; intervals are 95 % profile-likelihood intervals with a cut-off from Student's \
          t with {} degrees of freedom. The threshold is the ratio of filter radius to texel size at which {}. In the worst \
          condition ({}) the median person's threshold was {:.2} texels (95 % CI {low:.2} to {high:.2}), with a standard deviation \

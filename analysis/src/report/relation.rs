@@ -28,9 +28,9 @@ pub(super) fn conditions(analysis: &Analysis) -> String {
         );
     }
     format!(
-        "<div class=\"wide\"><table>\n<tr><th>condition</th><th>people</th><th>ratio</th><th>95 %</th>\
-         <th>mean of logarithms</th><th>95 %</th><th>line through 0</th><th>95 %</th></tr>\n{rows}</table></div>\n<p \
-         class=\"note\">The ratio is the median person's in a mixed model of every answer; ratio, spread and slope are estimated together. Mean of logarithms: over \
+        "<div class=\"wide\"><table>\n<tr><th>condition</th><th>people</th><th>ratio, texels</th><th>95 % CI</th>\
+         <th>mean of logarithms</th><th>95 % CI</th><th>line through 0</th><th>95 % CI</th></tr>\n{rows}</table></div>\n<p \
+         class=\"note\">Cite the ratio: it is the median person's in a mixed model of every answer; ratio, spread and slope are estimated together. Mean of logarithms: over \
          thresholds fitted to one person at a time. Line: the published estimator (Kreuzer 2017, Eq. 5.1), through \
          the origin of the mean radii; its target is the mean person, and it inherits the bias of thresholds from few \
          trials, so it lies higher. The worst condition is chosen after seeing the data, which overstates it slightly \
@@ -52,7 +52,7 @@ pub(super) fn form(worst: &Series) -> String {
     format!(
         "<h2>Is it a line through the origin?</h2>\n<p>For {}. A small p speaks against the \
          relation <i>r = c a</i>; a large one does not prove it.</p>\n<table>\n<tr><th>quantity</th>\
-         <th>estimate</th><th>95 %</th><th>p</th></tr>\n{}{}</table>\n",
+         <th>estimate</th><th>95 % CI</th><th>p</th></tr>\n{}{}</table>\n",
         worst.name,
         row("exponent g of r = c a<sup>g</sup>, against 1", worst.exponent, 1.0, ""),
         row("intercept b of r = c a + b, against 0", worst.intercept_px, 0.0, " px"),
@@ -73,7 +73,7 @@ pub(super) fn people_of_each(analysis: &Analysis) -> String {
     }
     format!(
         "<table>\n<tr><th>condition</th><th>SD between people, log10</th><th>slope per decade</th><th>blind \
-         trials</th></tr>\n{rows}</table>\n<p class=\"note\">A dot's threshold is its person's own, drawn to the median \
+         trials (lapses)</th></tr>\n{rows}</table>\n<p class=\"note\">A dot's threshold is its person's own, drawn to the median \
          where the person's answers say little. Dots right of 1 scatter: guesses are taken out there from answers that \
          are mostly guesses.</p>\n"
     )
@@ -97,7 +97,7 @@ pub(super) fn effects(analysis: &Analysis) -> String {
         );
     }
     format!(
-        "<h2>What moves the ratio</h2>\n<table>\n<tr><th>effect</th><th>factor on the ratio</th><th>95 %</th><th>p</th>\
+        "<h2>What moves the ratio</h2>\n<table>\n<tr><th>effect</th><th>factor on the ratio</th><th>95 % CI</th><th>p</th>\
          <th>people</th></tr>\n{rows}</table>\n<p class=\"note\">Within people, from their own ratios in every condition; over \
          people by Student's t. p is not corrected for the number of effects.</p>\n"
     )

@@ -20,7 +20,7 @@ pub(super) fn population(analysis: &Analysis) -> String {
         rows += "</tr>\n";
     }
     let header: String =
-        DETECTIONS.map(|d| format!("<th>seen on at most {:.0} %</th><th>95 %</th>", d * 100.0)).concat();
+        DETECTIONS.map(|d| format!("<th>texels, seen on at most {:.0} %</th><th>95 % CI</th>", d * 100.0)).concat();
     let between = interval_of_log10(&population.log10_between_sd, "0");
     let slope = interval_of_log10(&population.log10_slope, "open");
     let prior = SLOPE_PRIOR_SD_LN.exp();
