@@ -7,6 +7,9 @@ use crate::sitting::{Sitting, short};
 
 /// More pixels than a typed word and a cursor that blinks, and fewer than the ring around what has the keyboard.
 const RING_PX: usize = 400;
+/// Looks in a row without a change after which a screen is still: half a second, several frames of a slow machine, so
+/// that what comes next finds the keyboard where it belongs.
+const STILL_LOOKS: u32 = 10;
 /// Height of the strip that has a page's name and number.
 const HEADING_PX: u32 = 90;
 
@@ -23,13 +26,14 @@ fn turn(screen: &Screen) {
 fn press_and_look(screen: &Screen, words: &str, but_px: usize, part: fn(Pixels) -> Pixels) {
     let mut last = part(screen.pixels());
     screen.input(words);
-    let mut has_changed = false;
+    let (mut has_changed, mut still) = (false, 0);
     wait_for(&format!("another screen after {words}"), || {
         let now = part(screen.pixels());
         let changes = now.differing(&last) > but_px;
         has_changed |= changes;
+        still = if changes { 0 } else { still + 1 };
         last = now;
-        (has_changed && !changes).then_some(())
+        (has_changed && still >= STILL_LOOKS).then_some(())
     });
 }
 
