@@ -44,7 +44,10 @@ use crate::sitting::Sitting;
 
 fn main() -> ExitCode {
     match run(Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(last_words) => {
+            println!("{last_words}");
+            ExitCode::SUCCESS
+        }
         Err(error) => {
             eprintln!("scumble-study: {error:#}");
             ExitCode::FAILURE
@@ -52,8 +55,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs one session; success means that it is complete, or was ended on purpose, and on disk.
-fn run(arguments: Arguments) -> anyhow::Result<()> {
+/// Runs one session; success means that it is complete, or was ended on purpose, and on disk, and says where.
+fn run(arguments: Arguments) -> anyhow::Result<String> {
     let outcome = Rc::new(RefCell::new(Outcome::default()));
     let options = window_options(&arguments);
     // What is wrong is found here, and not in front of the participant.

@@ -9,7 +9,7 @@ pub(crate) enum Outcome {
     #[default]
     NotBegun,
     /// Every trial is answered, or the administrator ended the session, and all is on disk.
-    Complete,
+    Complete { directory: PathBuf },
     /// The window was closed before.
     Interrupted { directory: PathBuf },
     /// The experiment or a picture refused to go on; in words.
@@ -20,10 +20,12 @@ pub(crate) enum Outcome {
 }
 
 impl Outcome {
-    /// Success for a session that is over; else what there is to say, and how to go on.
-    pub(crate) fn into_result(self) -> anyhow::Result<()> {
+    /// Where the record of a session is that is over; else what there is to say, and how to go on.
+    pub(crate) fn into_result(self) -> anyhow::Result<String> {
         match self {
-            Self::Complete => Ok(()),
+            Self::Complete { directory } => {
+                Ok(format!("the session is over; its record is in {}", directory.display()))
+            }
             Self::NotBegun => anyhow::bail!("no session was begun, and nothing is recorded"),
             Self::Interrupted { directory } => anyhow::bail!("not complete; {}", how_to_resume(&directory)),
             Self::Stopped { problem, directory } => anyhow::bail!("{problem}; {}", how_to_resume(&directory)),
@@ -48,4 +50,19 @@ fn how_to_resume(directory: &Path) -> String {
     // A folder is named by the participant's code, and a number where there were sessions before.
     let code = folder.split('.').next().unwrap_or_default();
     format!("continue with --data {data} --participant {code} --resume")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_session_that_is_over_names_its_record_and_one_that_is_not_how_to_go_on() {
+        let directory = PathBuf::from("study/p07.2");
+        let over = Outcome::Complete { directory: directory.clone() }.into_result().unwrap();
+        assert_eq!(over, "the session is over; its record is in study/p07.2");
+        let interrupted = Outcome::Interrupted { directory }.into_result().unwrap_err().to_string();
+        assert_eq!(interrupted, "not complete; continue with --data study --participant p07 --resume");
+    }
 }

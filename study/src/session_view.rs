@@ -164,7 +164,7 @@ impl SessionView {
         }
         match &self.fatal {
             Some(problem) => Outcome::Stopped { problem: problem.clone(), directory },
-            None if recorder.is_closed() => Outcome::Complete,
+            None if recorder.is_closed() => Outcome::Complete { directory },
             None if recorder.has_begun() => Outcome::Interrupted { directory },
             None => Outcome::NotBegun,
         }

@@ -54,7 +54,8 @@ pub(in crate::words) const ENGLISH: SetupWords = SetupWords {
     card: "Outline of a card",
     card_text: "Hold a bank card, or any card of that size (85.6 x 54 mm), flat against the screen with its left \
                 edge on the outline's. Make the outline as wide as the card: with the arrow keys, finely with \
-                Shift, or by dragging; then press Enter.",
+                Shift, or by dragging; then press Enter. If it is as wide from the start, choose \
+                \u{201c}It matches\u{201d}.",
     card_matches: "It matches",
     not_measured: "Not measured",
     pixel_size: "Pixels per mm",

@@ -57,7 +57,8 @@ pub(in crate::words) const GERMAN: SetupWords = SetupWords {
     card: "Umriss einer Karte",
     card_text: "Halten Sie eine Bankkarte oder eine andere Karte dieser Größe (85,6 x 54 mm) flach an den Bildschirm, \
                 ihren linken Rand auf dem des Umrisses. Machen Sie den Umriss so breit wie die Karte: mit den \
-                Pfeiltasten, fein mit der Umschalttaste, oder durch Ziehen; drücken Sie dann die Eingabetaste.",
+                Pfeiltasten, fein mit der Umschalttaste, oder durch Ziehen; drücken Sie dann die Eingabetaste. Passt er \
+                von Anfang an, wählen Sie \u{201e}Passt\u{201c}.",
     card_matches: "Passt",
     not_measured: "Nicht gemessen",
     pixel_size: "Bildpunkte je mm",
