@@ -8,10 +8,15 @@
 //! * [`Differences`] and [`error_map`]: maximum, 99th percentile, RMS and bias over a mask of pixels, and their
 //!   picture.
 //!
-//! Checked against closed forms: the half plane and the slit under a disc kernel (`tests/closed_forms.rs`).
+//! * Closed forms: [`slit_under_disc`], [`disc_under_disc`], [`polygon_under_disc`], [`half_plane_under_rectangle`] and
+//!   [`rectangle_under_rectangle`], beside [`scumble_core::half_plane_under_disc`]. A share is a visibility when an
+//!   occluder's outline is multiplied by the distance of the light over its own, and divided by the light's radius.
+//!
+//! Rays are checked against closed forms (`tests/closed_forms.rs`), closed forms by counting and against each other.
 //! Not goals: an area light's own shadow (a filter approximates it, and this is the truth of the filter), other filters
 //! than the renderer's.
 
+mod closed_form;
 mod error;
 mod error_map;
 mod kernel_truth;
@@ -19,6 +24,10 @@ mod metrics;
 mod rays;
 mod tap;
 
+pub use closed_form::{
+    Rectangle, disc_under_disc, half_plane_under_rectangle, polygon_under_disc, rectangle_under_rectangle,
+    slit_under_disc,
+};
 pub use error::Error;
 pub use error_map::error_map;
 pub use kernel_truth::{KernelTruth, Receiver};
