@@ -1,7 +1,9 @@
-//! What can be wrong with pictures that are to be compared.
+//! What can be wrong with pictures that are to be compared, and with lights that are to be sampled.
 
-/// Why two pictures cannot be compared.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+use crate::LightTruth;
+
+/// Why two pictures cannot be compared, or a light cannot be sampled.
+#[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// Picture, truth and mask have different numbers of pixels.
     #[error("{found} pixels are compared with {truth} of the truth under a mask of {mask}: allowed are equal numbers")]
@@ -23,4 +25,13 @@ pub enum Error {
         /// Its value in the truth.
         truth: f32,
     },
+    /// A number of rays that does not cut the light into equal areas.
+    #[error("{found} samples of the light: allowed are {:?}", LightTruth::SAMPLES)]
+    Samples {
+        /// The number asked for.
+        found: u32,
+    },
+    /// A light that is out of range.
+    #[error(transparent)]
+    Light(#[from] scumble_core::Error),
 }

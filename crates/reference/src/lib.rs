@@ -5,6 +5,7 @@
 //!   and radii are those of the shader. A tap asks whether light reaches the surface around the receiver, where a map
 //!   compares with the tangent plane. So what differs is the texel, its bias, and what the map calls shaded where a lit
 //!   surface is folded.
+//! * [`LightTruth`]: the share of the light's own area that a point sees, by stratified rays, with its standard error.
 //! * [`Differences`] and [`error_map`]: maximum, 99th percentile, RMS and bias over a mask of pixels, and their
 //!   picture.
 //!
@@ -13,13 +14,14 @@
 //!   occluder's outline is multiplied by the distance of the light over its own, and divided by the light's radius.
 //!
 //! Rays are checked against closed forms (`tests/closed_forms.rs`), closed forms by counting and against each other.
-//! Not goals: an area light's own shadow (a filter approximates it, and this is the truth of the filter), other filters
-//! than the renderer's.
+//! Not goals: other filters than the renderer's, lights that are no discs.
 
 mod closed_form;
 mod error;
 mod error_map;
 mod kernel_truth;
+mod light_samples;
+mod light_truth;
 mod metrics;
 mod rays;
 mod tap;
@@ -31,5 +33,6 @@ pub use closed_form::{
 pub use error::Error;
 pub use error_map::error_map;
 pub use kernel_truth::{KernelTruth, Receiver};
+pub use light_truth::{Estimate, LightTruth};
 pub use metrics::{Differences, differences, penumbra};
 pub use rays::{Hit, Rays};

@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn pictures_that_cannot_be_compared_are_refused() {
         let lengths = differences(&[0.0; 2], &[0.0; 3], &[true; 3]).unwrap_err();
-        assert_eq!(lengths, Error::Lengths { found: 2, truth: 3, mask: 3 });
+        assert!(matches!(lengths, Error::Lengths { found: 2, truth: 3, mask: 3 }));
         let nan = differences(&[0.0, f32::NAN], &[0.0; 2], &[true; 2]).unwrap_err();
         assert!(nan.to_string().starts_with("pixel 1 is NaN"), "{nan}");
         assert!(penumbra(&[0.5; 2], &[true]).is_err());
