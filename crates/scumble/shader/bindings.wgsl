@@ -53,7 +53,14 @@ struct ShadowLight {
 
 struct ShadowLights {
     lights: array<ShadowLight, SHADOW_LIGHTS_MAX>,
+    // Side in pixels of the blocks of `shadow_blocks`; 0 where they are not of this frame.
+    block_px: u32,
 }
+
+// What may meet in a block of pixels, bits of `shadow_blocks`; none where nothing was found that counts.
+const SHADOW_BLOCK_LIT: u32 = 1u;
+const SHADOW_BLOCK_UMBRA: u32 = 2u;
+const SHADOW_BLOCK_MIXED: u32 = 3u;
 
 // Points of the unit disc, two a vector: xy is tap 2i, zw is tap 2i + 1.
 // A uniform buffer, never a constant array: indexed by a loop variable that runs up to 20 times slower on llvmpipe.
@@ -66,3 +73,5 @@ struct ShadowTaps {
 @group(0) @binding(1) var<uniform> shadow_taps: ShadowTaps;
 @group(0) @binding(2) var shadow_maps: texture_depth_2d_array;
 @group(0) @binding(3) var shadow_sampler: sampler_comparison;
+// By block of pixels, a layer a light: what the demand pass found at its corners.
+@group(0) @binding(4) var shadow_blocks: texture_2d_array<u32>;

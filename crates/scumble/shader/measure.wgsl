@@ -32,6 +32,8 @@ const NO_PLANE: f32 = 1e30;
 @group(1) @binding(0) var<uniform> measure: Measure;
 @group(1) @binding(1) var prepass: texture_depth_2d;
 @group(1) @binding(2) var<storage, read_write> demand: array<atomic<u32>, SHADOW_LIGHTS_MAX>;
+// What each measured pixel is, SHADOW_BLOCK_..., a layer a light.
+@group(1) @binding(3) var corners: texture_storage_2d_array<r32uint, write>;
 
 var<workgroup> smallest: atomic<u32>;
 
@@ -100,10 +102,16 @@ fn faces_light(light: u32, normal_light: vec3f, ray_light: vec3f) -> bool {
     return along < 0.0 && along * along * (1.0 + slope_max * slope_max) >= dot(ray_light, ray_light);
 }
 
-// Bits of the radius a fragment needs, or MEASURE_NOTHING.
-fn radius_bits(light: u32, pixel: vec2i, size: vec2i) -> u32 {
-    if any(pixel >= size) || depth_at(pixel) >= 1.0 || shadow_lights.lights[light].has_map == 0u {
-        return MEASURE_NOTHING;
+// What a fragment tells: bits of the radius that it needs, or MEASURE_NOTHING; and what it is for the pixels around it.
+struct Found {
+    radius_bits: u32,
+    block: u32,
+}
+
+// The sky, and what turns its back on the light, say nothing of the pixels around; a crease has no normal to tell.
+fn found_at(light: u32, pixel: vec2i, size: vec2i) -> Found {
+    if depth_at(pixel) >= 1.0 || shadow_lights.lights[light].has_map == 0u {
+        return Found(MEASURE_NOTHING, 0u);
     }
     let here = surface_at(pixel);
     let normal = normal_at(pixel, size, here);
@@ -111,16 +119,23 @@ fn radius_bits(light: u32, pixel: vec2i, size: vec2i) -> u32 {
     let normal_light = (shadow_lights.lights[light].light_from_world * vec4f(normal, 0.0)).xyz;
     let ray_light = select(vec3f(0.0, 0.0, 1.0), position_light, shadow_lights.lights[light].is_spot == 1u);
     if !faces_light(light, normal_light, ray_light) {
-        return MEASURE_NOTHING;
+        return Found(MEASURE_NOTHING, select(SHADOW_BLOCK_MIXED, 0u, dot(normal_light, ray_light) > 0.0));
     }
-    let found = shadow_sample(light, here, normal, vec2f(pixel) + 0.5);
-    let is_partial = found.visibility > 0.0 && found.visibility < 1.0 && found.blockers >= 2u;
+
+    let sample = shadow_sample(light, here, normal, vec2f(pixel) + 0.5);
+    if sample.visibility == 1.0 {
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_LIT);
+    }
+    if sample.visibility == 0.0 {
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_UMBRA);
+    }
+    let is_partial = sample.visibility > 0.0 && sample.visibility < 1.0 && sample.blockers >= 2u;
     let guard = max(measure.radius_floor_world, measure.radius_per_footprint * footprint(light, here, position_light.z));
-    let radius = max(found.radius_plane, guard);
+    let radius = max(sample.radius_plane, guard);
     if !is_partial || !(radius > 0.0) {
-        return MEASURE_NOTHING;
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_MIXED);
     }
-    return min(bitcast<u32>(radius), MEASURE_NOTHING);
+    return Found(min(bitcast<u32>(radius), MEASURE_NOTHING), SHADOW_BLOCK_MIXED);
 }
 
 @compute @workgroup_size(8, 8)
@@ -129,14 +144,17 @@ fn measure_demand(
     @builtin(local_invocation_index) index: u32,
 ) {
     let light = invocation.z;
-    let pixel = vec2i(invocation.xy * measure.stride);
+    let size = vec2i(textureDimensions(prepass));
     if index == 0u {
         atomicStore(&smallest, MEASURE_NOTHING);
     }
     workgroupBarrier();
-    let bits = radius_bits(light, pixel, vec2i(textureDimensions(prepass)));
-    if bits < MEASURE_NOTHING {
-        atomicMin(&smallest, bits);
+    if all(invocation.xy < textureDimensions(corners)) {
+        let found = found_at(light, min(vec2i(invocation.xy * measure.stride), size - 1), size);
+        textureStore(corners, invocation.xy, light, vec4u(found.block, 0u, 0u, 0u));
+        if found.radius_bits < MEASURE_NOTHING {
+            atomicMin(&smallest, found.radius_bits);
+        }
     }
     workgroupBarrier();
     let group_smallest = atomicLoad(&smallest);

@@ -16,14 +16,17 @@ fn shadow_filter_of(light: u32) -> u32 {
     return shadow_filter;
 }
 
-fn shadow_sample(light: u32, position_world: vec3f, normal_world: vec3f, frag_coord: vec2f) -> ShadowSample {
-    if light >= SHADOW_LIGHTS_MAX || shadow_lights.lights[light].has_map == 0u {
-        return ShadowSample(1.0, 0.0, 0u);
+// Samples that `ShadowSample.blockers` counts among.
+fn shadow_samples(light: u32) -> u32 {
+    switch shadow_filter_of(light) {
+        case SHADOW_FILTER_HARD: { return 1u; }
+        case SHADOW_FILTER_PCF: { return SHADOW_PCF_TAPS; }
+        default: { return SHADOW_BLOCKER_TAPS; }
     }
-    let receiver = shadow_receiver(light, position_world, normal_world);
-    if shadow_lights.lights[light].is_spot == 1u && !(receiver.light_depth > 0.0) {
-        return ShadowSample(1.0, 0.0, 0u);
-    }
+}
+
+// Filters a point that has a place in the light's map.
+fn shadow_filtered(light: u32, receiver: ShadowReceiver, frag_coord: vec2f) -> ShadowSample {
     let kind = shadow_filter_of(light);
     if kind == SHADOW_FILTER_HARD {
         let visibility = shadow_tap_at(light, receiver, vec2f(0.0));
@@ -48,8 +51,50 @@ fn shadow_sample(light: u32, position_world: vec3f, normal_world: vec3f, frag_co
     return ShadowSample(visibility, radius, blockers.count);
 }
 
+// Whether a point has no place in a map of the light: everything is lit there.
+fn shadow_is_open(light: u32, receiver: ShadowReceiver) -> bool {
+    return shadow_lights.lights[light].is_spot == 1u && !(receiver.light_depth > 0.0);
+}
+
+fn shadow_sample(light: u32, position_world: vec3f, normal_world: vec3f, frag_coord: vec2f) -> ShadowSample {
+    if light >= SHADOW_LIGHTS_MAX || shadow_lights.lights[light].has_map == 0u {
+        return ShadowSample(1.0, 0.0, 0u);
+    }
+    let receiver = shadow_receiver(light, position_world, normal_world);
+    if shadow_is_open(light, receiver) {
+        return ShadowSample(1.0, 0.0, 0u);
+    }
+    return shadow_filtered(light, receiver, frag_coord);
+}
+
+// What all corners of the pixel's block agree on; SHADOW_BLOCK_MIXED where they do not, or none is known.
+fn shadow_block(light: u32, pixel: vec2u) -> u32 {
+    let side = shadow_lights.block_px;
+    if side == 0u {
+        return SHADOW_BLOCK_MIXED;
+    }
+    return textureLoad(shadow_blocks, pixel / side, light, 0).x;
+}
+
 // Share of a light that reaches `position_world` (relative to the origin given to `Shadows`) on a surface with the
-// geometric normal `normal_world`; `frag_coord` turns the kernel per pixel.
+// geometric normal `normal_world`; `frag_coord` turns the kernel per pixel. Where the demand pass found the block of
+// pixels around it lit or dark, one lookup that says the same stands for the filter.
 fn shadow_visibility(light: u32, position_world: vec3f, normal_world: vec3f, frag_coord: vec2f) -> f32 {
-    return shadow_sample(light, position_world, normal_world, frag_coord).visibility;
+    if light >= SHADOW_LIGHTS_MAX || shadow_lights.lights[light].has_map == 0u {
+        return 1.0;
+    }
+    let receiver = shadow_receiver(light, position_world, normal_world);
+    if shadow_is_open(light, receiver) {
+        return 1.0;
+    }
+    if shadow_filter_of(light) != SHADOW_FILTER_HARD {
+        let block = shadow_block(light, vec2u(frag_coord));
+        if block == SHADOW_BLOCK_LIT || block == SHADOW_BLOCK_UMBRA {
+            let visibility = shadow_tap_at(light, receiver, vec2f(0.0));
+            if visibility == select(0.0, 1.0, block == SHADOW_BLOCK_LIT) {
+                return visibility;
+            }
+        }
+    }
+    return shadow_filtered(light, receiver, frag_coord).visibility;
 }

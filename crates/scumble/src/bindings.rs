@@ -3,6 +3,7 @@
 use scumble_core::Taps;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
+use crate::blocks::{blocks_texture, sampled_binding};
 use crate::maps::Maps;
 use crate::uniforms::{LightsUniform, TapsUniform};
 
@@ -10,13 +11,15 @@ use crate::uniforms::{LightsUniform, TapsUniform};
 #[derive(Debug)]
 pub struct Bindings {
     lights: wgpu::Buffer,
+    taps: wgpu::Buffer,
+    sampler: wgpu::Sampler,
     layout: wgpu::BindGroupLayout,
     group: wgpu::BindGroup,
 }
 
 impl Bindings {
-    /// Buffers created here.
-    pub const BUFFERS: usize = 2;
+    /// Buffers, textures and bind groups created here.
+    pub const ALLOCATIONS: u64 = 4;
 
     /// Creates all, with the method's taps and no lights.
     pub fn new(device: &wgpu::Device, maps: &Maps) -> Self {
@@ -42,17 +45,14 @@ impl Bindings {
             ..Default::default()
         });
         let layout = layout(device);
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("scumble"),
-            layout: &layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: lights.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: taps.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(maps.sampled()) },
-                wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(&sampler) },
-            ],
-        });
-        Self { lights, layout, group }
+        let no_blocks = blocks_texture(device, [1, 1]);
+        let group = group(device, &layout, &lights, &taps, maps, &sampler, &no_blocks);
+        Self { lights, taps, sampler, layout, group }
+    }
+
+    /// Reads these blocks from here on.
+    pub fn set_blocks(&mut self, device: &wgpu::Device, maps: &Maps, blocks: &wgpu::TextureView) {
+        self.group = group(device, &self.layout, &self.lights, &self.taps, maps, &self.sampler, blocks);
     }
 
     /// For pipelines that shade.
@@ -69,6 +69,34 @@ impl Bindings {
     pub fn write(&self, queue: &wgpu::Queue, lights: &LightsUniform) {
         queue.write_buffer(&self.lights, 0, bytemuck::bytes_of(lights));
     }
+
+    /// Tells the shaders that the blocks are of this plan, and their side.
+    pub fn write_block_px(&self, queue: &wgpu::Queue, block_px: u32) {
+        let offset = std::mem::offset_of!(LightsUniform, block_px) as u64;
+        queue.write_buffer(&self.lights, offset, bytemuck::bytes_of(&block_px));
+    }
+}
+
+fn group(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    lights: &wgpu::Buffer,
+    taps: &wgpu::Buffer,
+    maps: &Maps,
+    sampler: &wgpu::Sampler,
+    blocks: &wgpu::TextureView,
+) -> wgpu::BindGroup {
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("scumble"),
+        layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: lights.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: taps.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(maps.sampled()) },
+            wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(sampler) },
+            wgpu::BindGroupEntry { binding: 4, resource: wgpu::BindingResource::TextureView(blocks) },
+        ],
+    })
 }
 
 fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
@@ -91,6 +119,12 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("scumble"),
-        entries: &[entry(0, uniform), entry(1, uniform), entry(2, maps), entry(3, sampler)],
+        entries: &[
+            entry(0, uniform),
+            entry(1, uniform),
+            entry(2, maps),
+            entry(3, sampler),
+            entry(4, sampled_binding()),
+        ],
     })
 }

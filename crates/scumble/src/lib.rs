@@ -31,6 +31,7 @@
 //! creation only (and once at the first `measure`). It has one map a light: no cascades, no cube maps.
 
 mod bindings;
+mod blocks;
 mod counters;
 mod error;
 mod maps;
@@ -49,7 +50,7 @@ pub use measure::NOTHING as MEASURE_NOTHING;
 pub use options::{Options, SizeChoice};
 pub use plan::filter_constant;
 pub use scumble_core::{self, Aabb, Camera, Filter, Light, Settings};
-pub use shaders::{CLEAR_WGSL, FILTER_OVERRIDE, measure_wgsl, shadow_wgsl};
+pub use shaders::{CLASSIFY_WGSL, CLEAR_WGSL, FILTER_OVERRIDE, measure_wgsl, shadow_wgsl};
 pub use shadows::Shadows;
 pub use uniforms::{BLOCKER_TAPS, LIGHTS_MAX, PCF_TAPS};
 pub use view::{Plan, View};

@@ -7,6 +7,7 @@ use glam::DVec3;
 use scumble_core::{Camera, Demand, Settings};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
+use crate::blocks::{Blocks, ClassifyPass, corners_of, written_binding};
 use crate::error::Error;
 use crate::readback::Ring;
 use crate::uniforms::{LIGHTS_MAX, MeasureUniform};
@@ -28,6 +29,8 @@ pub struct Measure {
     uniform: wgpu::Buffer,
     demand: wgpu::Buffer,
     nothing: wgpu::Buffer,
+    classify: ClassifyPass,
+    blocks: Option<Blocks>,
     bound: Option<(wgpu::TextureView, wgpu::BindGroup)>,
     ring: Ring<Scale>,
 }
@@ -54,8 +57,10 @@ pub struct Request<'a> {
 
 /// What a recorded measurement did.
 pub struct Recorded {
-    /// Whether a bind group had to be created.
-    pub rebound: bool,
+    /// Bind groups and textures that had to be created.
+    pub allocations: u64,
+    /// Whether the blocks are in a new texture.
+    pub new_blocks: bool,
     /// Whether the ring had room to bring the result back.
     pub copied: bool,
 }
@@ -92,6 +97,8 @@ impl Measure {
                 wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
             ),
             nothing,
+            classify: ClassifyPass::new(device),
+            blocks: None,
             bound: None,
             ring: Ring::new(device, demand_bytes),
         })
@@ -119,9 +126,10 @@ impl Measure {
         let camera = request.camera.checked()?;
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&camera_uniform(&camera, size_px, request)));
 
+        let new_blocks = self.make_blocks(device, corners_of(size_px, request.stride));
         let (bind_group, rebound) = self.bind(device, prepass);
         encoder.copy_buffer_to_buffer(&self.nothing, 0, &self.demand, 0, self.demand.size());
-        let groups = size_px.map(|side| side.div_ceil(request.stride).div_ceil(GROUP_SIDE));
+        let groups = corners_of(size_px, request.stride).map(|side| side.div_ceil(GROUP_SIDE));
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: Some("scumble measure"),
@@ -132,8 +140,27 @@ impl Measure {
             pass.set_bind_group(1, &bind_group, &[]);
             pass.dispatch_workgroups(groups[0], groups[1], request.light_count);
         }
+        if let Some(blocks) = &self.blocks {
+            self.classify.record(encoder, blocks, request.light_count);
+        }
         let copied = self.ring.record(encoder, &self.demand, request.scale);
-        Ok(Recorded { rebound, copied })
+        let allocations = u64::from(rebound) + u64::from(new_blocks) * Blocks::ALLOCATIONS;
+        Ok(Recorded { allocations, new_blocks, copied })
+    }
+
+    /// What was found, by block of pixels; `None` before the first measurement.
+    pub fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
+    }
+
+    /// Blocks for this many corners; whether they had to be created.
+    fn make_blocks(&mut self, device: &wgpu::Device, corners_size: [u32; 2]) -> bool {
+        if self.blocks.as_ref().is_some_and(|blocks| blocks.corners_size() == corners_size) {
+            return false;
+        }
+        self.blocks = Some(Blocks::new(device, &self.classify, corners_size));
+        self.bound = None;
+        true
     }
 
     /// The newest result that has come back, by light, in the sense of
@@ -156,14 +183,19 @@ impl Measure {
         {
             return (group.clone(), false);
         }
+        let mut entries = vec![
+            wgpu::BindGroupEntry { binding: 0, resource: self.uniform.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(prepass) },
+            wgpu::BindGroupEntry { binding: 2, resource: self.demand.as_entire_binding() },
+        ];
+        entries.extend(self.blocks.as_ref().map(|blocks| wgpu::BindGroupEntry {
+            binding: 3,
+            resource: wgpu::BindingResource::TextureView(blocks.corners()),
+        }));
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("scumble measure"),
             layout: &self.layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: self.uniform.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(prepass) },
-                wgpu::BindGroupEntry { binding: 2, resource: self.demand.as_entire_binding() },
-            ],
+            entries: &entries,
         });
         self.bound = Some((prepass.clone(), group.clone()));
         (group, true)
@@ -247,6 +279,7 @@ fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
                 },
             ),
             entry(2, buffer(wgpu::BufferBindingType::Storage { read_only: false })),
+            entry(3, written_binding()),
         ],
     })
 }

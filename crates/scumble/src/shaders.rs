@@ -11,6 +11,9 @@ const MEASURE: &str = include_str!("../shader/measure.wgsl");
 /// The pass that clears a viewport.
 pub const CLEAR_WGSL: &str = include_str!("../shader/clear.wgsl");
 
+/// The pass that makes blocks of corners.
+pub const CLASSIFY_WGSL: &str = include_str!("../shader/classify.wgsl");
+
 /// Parts of `shadow_visibility`, in the order in which they are joined.
 const PARTS: [&str; 6] = [BINDINGS, ROTATION, RECEIVER, PCF, PCSS, VISIBILITY];
 

@@ -57,7 +57,7 @@ impl Shadows {
         let bindings = Bindings::new(device, &maps);
         let state = LightState { policy: SizePolicy::new(&settings)?, measured: None };
         let counters =
-            Counters { allocations: 2 + Bindings::BUFFERS as u64, map_bytes: maps.bytes(), ..Counters::default() };
+            Counters { allocations: 1 + Bindings::ALLOCATIONS, map_bytes: maps.bytes(), ..Counters::default() };
         Ok(Self {
             device: device.clone(),
             states: vec![state; options.maps as usize],
@@ -219,7 +219,12 @@ impl Shadows {
         };
         let recorded = measure.record(&self.device, queue, encoder, self.bindings.group(), prepass, &request)?;
         self.counters.measure_passes += 1;
-        self.counters.allocations += u64::from(recorded.rebound);
+        self.counters.allocations += recorded.allocations;
+        if recorded.new_blocks && let Some(blocks) = measure.blocks() {
+            self.bindings.set_blocks(&self.device, &self.maps, blocks.blocks());
+            self.counters.allocations += 1;
+        }
+        self.bindings.write_block_px(queue, self.options.measure_stride);
         self.counters.readbacks_skipped += u64::from(!recorded.copied);
         Ok(())
     }

@@ -62,6 +62,10 @@ pub struct LightUniform {
 pub struct LightsUniform {
     /// By light, in the order given to `plan`.
     pub lights: [LightUniform; LIGHTS_MAX as usize],
+    /// Side of the blocks in pixels; 0 where they are not of this frame.
+    pub block_px: u32,
+    /// Unused.
+    pub padding: [u32; 3],
 }
 
 /// Taps in the unit disc, two a vector; the last vector's second half is unused where the count is odd.

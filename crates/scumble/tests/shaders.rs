@@ -38,7 +38,7 @@ fn filters() -> [(&'static str, f64); 4] {
 
 #[test]
 fn every_shader_is_valid_with_every_filter() {
-    for source in [with_use(0), with_use(3), measure_wgsl(), scumble::CLEAR_WGSL.to_owned()] {
+    for source in [with_use(0), with_use(3), measure_wgsl(), scumble::CLEAR_WGSL.to_owned(), scumble::CLASSIFY_WGSL.to_owned()] {
         let (module, info) = validate(&source);
         for (name, value) in filters() {
             let constants = if module.overrides.is_empty() {
@@ -69,7 +69,7 @@ fn the_bindings_move_to_the_callers_group() {
         .iter()
         .filter_map(|(_, variable)| variable.binding.as_ref().map(|binding| binding.group))
         .collect();
-    assert_eq!(groups, [2, 2, 2, 2]);
+    assert_eq!(groups, [2, 2, 2, 2, 2]);
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
             padding,
         ]
     );
-    assert_same_layout!(module, "ShadowLights", LightsUniform, [lights]);
+    assert_same_layout!(module, "ShadowLights", LightsUniform, [lights, block_px]);
     assert_same_layout!(module, "ShadowTaps", TapsUniform, [pcf, blocker]);
     assert_same_layout!(
         module,

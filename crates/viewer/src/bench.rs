@@ -121,9 +121,8 @@ fn bench_scene(options: &Bench, size_px: [u32; 2], stage: Stage) -> Result<Vec<R
     let samples_per_side = if options.quick { 1 } else { SAMPLES_PER_SIDE };
     let rays = Rays::new(&stage.setup.scene);
     for &method in &options.methods {
-        let of_method = || variants.iter().zip(&timings).filter(|(variant, _)| variant.method == method);
-        let Some((first, _)) = of_method().next() else { continue };
-        let plan = first.plan()?;
+        let Some(first) = variants.iter().find(|variant| variant.method == method) else { continue };
+        let plan = &first.plan()?.clone();
         let filter = stage.setup.filter(method);
         let message = format!("{name}: truth of {}", method.name());
         let truth = true_visibility(&message, &rays, &filter, plan, &screen.surfaces, size_px[0]);
@@ -132,7 +131,8 @@ fn bench_scene(options: &Bench, size_px: [u32; 2], stage: Stage) -> Result<Vec<R
         make_directory(&directory)?;
         let pictures = pictures::Pictures::new(&stage, &directory, size_px, samples_per_side)?;
         let truth_picture = pictures.truth(&rays, &filter, plan, &truth)?;
-        for (variant, timing) in of_method() {
+        let of_method = variants.iter_mut().zip(&timings).filter(|(variant, _)| variant.method == method);
+        for (variant, timing) in of_method {
             let visibility = variant.read_visibility(&stage)?;
             let radii = variant.read_radii(&stage, &receivers)?;
             let comparison = compare(&stage, variant, &screen, &visibility, &truth, &radii)?;

@@ -154,7 +154,10 @@ impl Variant {
     }
 
     /// Evaluates the map of the last frame on another G-buffer of the same camera, for a picture with more samples.
-    pub fn evaluate(&self, stage: &Stage, gbuffer: &GBuffer) -> Result<wgpu::Texture> {
+    pub fn evaluate(&mut self, stage: &Stage, gbuffer: &GBuffer) -> Result<wgpu::Texture> {
+        // The blocks that were found are of the frame's pixels.
+        let plan = self.plan()?.clone();
+        self.shadows.upload(&stage.gpu.queue, &plan);
         let visibility = stage.visibility_texture(gbuffer);
         let mut encoder = stage.gpu.encoder("evaluation");
         self.evaluation.draw(&mut encoder, gbuffer, &self.shadows, &visibility);

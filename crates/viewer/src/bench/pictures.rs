@@ -54,7 +54,7 @@ impl<'a> Pictures<'a> {
     /// The picture of a variant and its error map; the list names them and the truth.
     pub fn variant(
         &self,
-        variant: &Variant,
+        variant: &mut Variant,
         label: &str,
         visibility: &[f32],
         truth: &[f32],
