@@ -7,7 +7,7 @@
 //! 3. [`Shadows::upload`] tells the shaders.
 //! 4. [`Shadows::begin`] gives a depth-only pass for each view; the caller draws its casters.
 //! 5. [`Shadows::measure`], optional, looks at a depth prepass and finds the smallest radius on screen (Kreuzer 2017,
-//!    Eq. 5.12).
+//!    Eq. 5.12), and where everything is lit or dark: there the shading needs one lookup and no filter.
 //! 6. The caller shades: [`shadow_wgsl`] before its shader, [`Shadows::bind_group`] bound, `shadow_visibility` called.
 //!
 //! ```no_run
@@ -28,7 +28,8 @@
 //! ```
 //!
 //! The caller keeps device, queue, encoder, scene and camera. This crate never submits, never waits, and allocates at
-//! creation only (and once at the first `measure`). It has one map a light: no cascades, no cube maps.
+//! creation, at the first `measure`, and when the prepass changes its size. It has one map a light: no cascades, no
+//! cube maps.
 
 mod bindings;
 mod blocks;

@@ -30,8 +30,8 @@ pub struct Options {
     /// Origin of the world space that shaders and vertex buffers use, in world coordinates. Put it near the camera or
     /// the scene where coordinates are large: what reaches the GPU is relative to it, in f32.
     pub origin_world: DVec3,
-    /// Every how many pixels, along x and along y, `measure` looks at one. On llvmpipe 4 costs a
-    /// twelfth of 1.
+    /// Every how many pixels, along x and along y, `measure` looks at one; and so the side of the blocks of pixels that
+    /// one lookup may be enough for. On llvmpipe 4 costs a twelfth of 1.
     pub measure_stride: u32,
 }
 
@@ -43,7 +43,7 @@ impl Default for Options {
             fitted: true,
             maps: 1,
             origin_world: DVec3::ZERO,
-            measure_stride: 1,
+            measure_stride: 4,
         }
     }
 }

@@ -163,8 +163,8 @@ impl Shadows {
         self.device.features().contains(wgpu::Features::DEPTH_CLIP_CONTROL)
     }
 
-    /// What `shadow_visibility` reads; for the group number given to [`shadow_wgsl`](crate::shadow_wgsl). The same
-    /// object for good.
+    /// What `shadow_visibility` reads; for the group number given to [`shadow_wgsl`](crate::shadow_wgsl). Take it anew
+    /// each frame: it is another object after `measure` saw the first prepass, or one of another size.
     #[must_use]
     pub fn bind_group(&self) -> &wgpu::BindGroup {
         self.bindings.group()
@@ -183,8 +183,13 @@ impl Shadows {
     }
 
     /// Records the demand pass: the smallest filter radius that the pixels of a depth prepass need, by light, with the
-    /// maps and matrices uploaded last. Call it after the maps are drawn, or before `plan` for those of the last frame.
-    /// The result comes back frames later; see [`Shadows::read_demand`]. One call a submission.
+    /// maps and matrices uploaded last. The result comes back frames later; see [`Shadows::read_demand`]. One call a
+    /// submission.
+    ///
+    /// Call it after the maps are drawn and before shading: until the next `upload`, `shadow_visibility` then takes its
+    /// `frag_coord` for a pixel of this prepass, and filters only where the pass did not find the pixels around it lit or
+    /// dark. Shading other pixels needs an `upload` between. Called before `plan` it measures the maps of the last frame,
+    /// and shading filters everywhere.
     ///
     /// `prepass` is a view of the whole of a single-sample depth texture drawn with `camera.clip_from_world()`, cleared to 1.
     /// A plan without maps records nothing.
@@ -220,7 +225,9 @@ impl Shadows {
         let recorded = measure.record(&self.device, queue, encoder, self.bindings.group(), prepass, &request)?;
         self.counters.measure_passes += 1;
         self.counters.allocations += recorded.allocations;
-        if recorded.new_blocks && let Some(blocks) = measure.blocks() {
+        if recorded.new_blocks
+            && let Some(blocks) = measure.blocks()
+        {
             self.bindings.set_blocks(&self.device, &self.maps, blocks.blocks());
             self.counters.allocations += 1;
         }

@@ -38,7 +38,9 @@ fn filters() -> [(&'static str, f64); 4] {
 
 #[test]
 fn every_shader_is_valid_with_every_filter() {
-    for source in [with_use(0), with_use(3), measure_wgsl(), scumble::CLEAR_WGSL.to_owned(), scumble::CLASSIFY_WGSL.to_owned()] {
+    for source in
+        [with_use(0), with_use(3), measure_wgsl(), scumble::CLEAR_WGSL.to_owned(), scumble::CLASSIFY_WGSL.to_owned()]
+    {
         let (module, info) = validate(&source);
         for (name, value) in filters() {
             let constants = if module.overrides.is_empty() {

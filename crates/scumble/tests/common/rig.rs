@@ -59,9 +59,9 @@ pub fn slab(height: f32, angle: f32) -> Vec<Vec3> {
     super::casters::quad(corners.map(|[x, z]| turn * Vec3::new(x, 0.0, z) + Vec3::Y * height))
 }
 
-/// A filter with a fixed size.
+/// A filter with a fixed size, and every pixel measured.
 pub fn fixed(filter: Filter, side: u32) -> Options {
-    Options { filter, size: SizeChoice::Fixed([side; 2]), ..Options::default() }
+    Options { filter, size: SizeChoice::Fixed([side; 2]), measure_stride: 1, ..Options::default() }
 }
 
 impl Rig {
