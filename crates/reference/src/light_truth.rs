@@ -74,6 +74,11 @@ impl<'a> LightTruth<'a> {
         Ok(Self { rays, light, samples, world_from_light })
     }
 
+    /// Rays for each receiver.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
     /// Visibility of one receiver.
     pub fn at(&self, receiver: &Receiver) -> Estimate {
         let normal = receiver.normal.as_dvec3();

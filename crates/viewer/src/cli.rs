@@ -14,7 +14,9 @@ Examples:
   scumble-viewer bench --scenes stairwell --methods pcf,pcss --sizes 512,2048,adaptive --out results
       times, texels and errors against ground truth: results/bench.csv, bench.json and pictures
   scumble-viewer truth --scene stairwell --method pcss --out truth.png
-      the same filter over an alias-free shadow, by rays on the processor
+      the same filter over an alias-free shadow, by rays on the processor: truth.png, .npy and .json
+  scumble-viewer truth --scene stairwell --truth light --samples 256 --out light.png
+      the light itself, by 256 rays a pixel, with its standard error in light.se.npy
 
 `scumble-viewer scenes` lists the catalogue. Lengths are metres.";
 
@@ -34,7 +36,7 @@ pub enum Command {
     Shot(Shot),
     /// Compare sizes: times, texels, bytes, taps and error against ground truth
     Bench(Bench),
-    /// Ground truth: the same filter over an alias-free shadow, by rays on the processor
+    /// Ground truth by rays on the processor: the filter over an alias-free shadow, or the light itself
     Truth(Truth),
     /// List the scenes of the catalogue
     Scenes,
@@ -92,12 +94,44 @@ pub struct Truth {
     /// What is drawn
     #[command(flatten)]
     pub view: View,
-    /// Which filter the truth is of
+    /// What the shadow is compared with
+    #[arg(long, value_enum, default_value_t = TruthOf::Kernel)]
+    pub truth: TruthOf,
+    /// Which filter the kernel truth is of; the light has none
     #[arg(long, value_enum, default_value_t = Method::Pcss)]
     pub method: Method,
-    /// The picture, a .png file; the visibility of every sample goes beside it as .f32 (little-endian, row by row)
+    /// Rays of every pixel: taps of the kernel, 1 to 1024 [default: the renderer's 25], or points of the light, one of
+    /// 64, 128, 256, 512 and 1024 [default: 256]
+    #[arg(long, value_name = "N")]
+    pub samples: Option<u32>,
+    /// The picture, a .png file. Beside it: the visibility in the middle of every pixel as .npy (float32, height x
+    /// width), for the light its standard error as .se.npy, and a .json file that says what they are
     #[arg(long, value_name = "PNG")]
     pub out: PathBuf,
+    /// Where finished rows are kept, by everything that they depend on, so that a run that was killed goes on and a
+    /// second one is quick; what is in it may be deleted at any time [default: scumble/truth in the system's folder for
+    /// caches, ~/.cache on Linux]
+    #[arg(long, value_name = "DIR")]
+    pub cache: Option<PathBuf>,
+}
+
+/// What a shadow is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TruthOf {
+    /// The same filter over the exact hard shadow: what the texels do
+    Kernel,
+    /// The light itself, every point of it: what the filter does, too
+    Light,
+}
+
+impl TruthOf {
+    /// As the command line spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Kernel => "kernel",
+            Self::Light => "light",
+        }
+    }
 }
 
 /// A scene under conditions.

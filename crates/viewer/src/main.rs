@@ -16,6 +16,7 @@ mod evaluation;
 mod fullscreen;
 mod gbuffer;
 mod geometry;
+mod npy;
 mod output;
 mod readback;
 mod record;

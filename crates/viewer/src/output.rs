@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use serde::Serialize;
 
+use crate::npy::MAGIC;
+
 /// What a file holds, told by its name and its first bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -15,8 +17,8 @@ pub enum Kind {
     Json(&'static str),
     /// A table whose first column is `scene`.
     Csv,
-    /// Little-endian f32 values, described by the JSON file of the same name.
-    Raw,
+    /// An array for NumPy, described by the JSON file of the same name.
+    Npy,
 }
 
 impl Kind {
@@ -25,7 +27,7 @@ impl Kind {
             Self::Png => "png",
             Self::Json(_) => "json",
             Self::Csv => "csv",
-            Self::Raw => "f32",
+            Self::Npy => "npy",
         }
     }
 
@@ -34,7 +36,11 @@ impl Kind {
         match self {
             Self::Png => bytes.starts_with(b"\x89PNG\r\n\x1a\n"),
             Self::Csv => bytes.starts_with(b"scene,"),
-            Self::Raw => path.with_extension("json").is_file(),
+            // NAME.npy and NAME.se.npy have the record NAME.json.
+            Self::Npy => {
+                let named = path.with_extension("");
+                bytes.starts_with(MAGIC) && [path, &named].iter().any(|path| path.with_extension("json").is_file())
+            }
             Self::Json(schema) => {
                 serde_json::from_slice::<serde_json::Value>(bytes).is_ok_and(|value| value["schema"] == schema)
             }
@@ -84,12 +90,6 @@ pub fn write_json(path: &Path, record: &impl Serialize) -> Result<()> {
     let mut text = serde_json::to_string_pretty(record).context("the record cannot be written as JSON")?;
     text.push('\n');
     write(path, text.as_bytes())
-}
-
-/// Writes raw values.
-pub fn write_raw(path: &Path, values: &[f32]) -> Result<()> {
-    let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-    write(path, &bytes)
 }
 
 /// Writes a picture.

@@ -185,18 +185,3 @@ fn a_bench_writes_a_table_a_record_and_the_pictures_that_it_names() {
     assert!(rows[1]["texels"].as_u64().unwrap() < 1024 * 1024 / 2, "the adaptive map is the smaller one");
     assert_eq!(rows[1]["comparison"]["violation_share"], 0.0);
 }
-
-#[test]
-fn a_truth_writes_as_many_numbers_as_its_record_says() {
-    let directory = tempfile::tempdir().unwrap();
-    let out = directory.path().join("truth.png");
-    let arguments = ["truth", "--scene", "contact", "--width", "64", "--height", "36", "--out", path_text(&out)];
-    let output = viewer(&arguments);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let record: serde_json::Value = serde_json::from_slice(&fs::read(out.with_extension("json")).unwrap()).unwrap();
-    let raw = fs::read(out.with_extension("f32")).unwrap();
-    assert_eq!(raw.len() as u64, 4 * record["raw_width"].as_u64().unwrap() * record["raw_height"].as_u64().unwrap());
-    let values = raw.chunks_exact(4).map(|bytes| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
-    assert!(values.clone().all(|value| (0.0..=1.0).contains(&value)));
-    assert!(values.clone().any(|value| value < 0.5), "there is a shadow");
-}

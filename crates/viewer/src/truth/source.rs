@@ -1,0 +1,113 @@
+//! Which truth is asked for, and how often rays are sent for it.
+
+use anyhow::{Result, ensure};
+use scumble::{Filter, Light, Plan};
+use scumble_core::Taps;
+use scumble_reference::{Estimate, KernelTruth, LightTruth, Rays, Receiver};
+use scumble_scenes::Mesh;
+
+use crate::cli::{Truth, TruthOf};
+use crate::truth::key::{Key, KeyBuilder};
+
+/// Samples of the light by default: an error of about 1 % in the middle of a penumbra.
+const LIGHT_SAMPLES: u32 = 256;
+/// Most taps of a filter: throwing the darts of more takes longer than the rays.
+const TAPS_MAX: u32 = 1024;
+
+/// How often rays are sent for a pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Samples {
+    /// Taps of the filter.
+    Kernel(u32),
+    /// Points of the light.
+    Light(u32),
+}
+
+impl Samples {
+    /// Of the command line, checked before any work.
+    pub fn of(options: &Truth) -> Result<Self> {
+        match (options.truth, options.samples) {
+            (TruthOf::Kernel, samples) => {
+                let taps = samples.unwrap_or(Taps::FILTER as u32);
+                ensure!((1..=TAPS_MAX).contains(&taps), "--samples {taps}: the kernel truth has 1 to {TAPS_MAX} taps");
+                Ok(Self::Kernel(taps))
+            }
+            (TruthOf::Light, samples) => {
+                let samples = samples.unwrap_or(LIGHT_SAMPLES);
+                let allowed = LightTruth::SAMPLES;
+                ensure!(allowed.contains(&samples), "--samples {samples}: the light truth takes one of {allowed:?}");
+                Ok(Self::Light(samples))
+            }
+        }
+    }
+
+    /// Points of the light, `None` for a filter.
+    pub fn of_light(self) -> Option<u32> {
+        match self {
+            Self::Kernel(_) => None,
+            Self::Light(samples) => Some(samples),
+        }
+    }
+
+    /// Rays a pixel; a filter with a blocker search sends some more.
+    pub fn number(self) -> u32 {
+        match self {
+            Self::Kernel(number) | Self::Light(number) => number,
+        }
+    }
+}
+
+/// What answers for a receiver.
+pub enum Source<'a> {
+    /// The light has no view, so all is lit.
+    Open,
+    /// A filter over the exact hard shadow.
+    Kernel(KernelTruth<'a>),
+    /// The light itself.
+    Light(LightTruth<'a>, &'a Light),
+}
+
+impl<'a> Source<'a> {
+    /// `plan` says where a filter's radii are measured; the light needs none.
+    pub fn new(
+        rays: &'a Rays,
+        light: &'a Light,
+        plan: Option<&'a Plan>,
+        filter: Filter,
+        samples: Samples,
+    ) -> Result<Self> {
+        match samples {
+            Samples::Light(samples) => Ok(Self::Light(LightTruth::new(rays, light, samples)?, light)),
+            Samples::Kernel(taps) => Ok(match plan.and_then(|plan| plan.views().first()) {
+                None => Self::Open,
+                Some(view) => {
+                    let taps = Taps::new(Taps::BLOCKER, taps as usize);
+                    Self::Kernel(KernelTruth { taps, ..KernelTruth::new(rays, &view.fit, filter) })
+                }
+            }),
+        }
+    }
+
+    /// Visibility of receivers, on all cores. A filter is no sample of anything: its standard error is 0.
+    pub fn estimates(&self, receivers: &[Receiver], progress: impl Fn(usize) + Sync) -> Vec<Estimate> {
+        let exact = |visibility| Estimate { visibility, standard_error: 0.0 };
+        match self {
+            Self::Open => vec![exact(1.0); receivers.len()],
+            Self::Kernel(truth) => truth.visibility(receivers, progress).into_iter().map(exact).collect(),
+            Self::Light(truth, _) => truth.visibility(receivers, progress),
+        }
+    }
+
+    /// By what the truth of these receivers among these meshes is found again.
+    pub fn key(&self, meshes: &[Mesh], receivers: &[Receiver]) -> Key {
+        let key = KeyBuilder::new().meshes(meshes).receivers(receivers);
+        match self {
+            Self::Open => key.text("open"),
+            Self::Kernel(truth) => {
+                key.text("kernel").text(&format!("{:?} {:?}", truth.filter, truth.fit)).taps(&truth.taps)
+            }
+            Self::Light(truth, light) => key.text("light").text(&format!("{light:?} {}", truth.samples())),
+        }
+        .finish()
+    }
+}
