@@ -181,7 +181,8 @@ fn the_measured_minimum_is_what_rays_find_in_the_penumbra() {
         let scene = open(name);
         let rays = Rays::new(&scene);
         let points = receivers(&scene, &rays);
-        let mut rig = rig(&scene, settings(), Options { size: SizeChoice::Fixed([2048; 2]), ..Options::default() });
+        let options = Options { size: SizeChoice::Fixed([2048; 2]), measure_stride: 1, ..Options::default() };
+        let mut rig = rig(&scene, settings(), options);
         let plan = rig.draw(&[scene.light]);
         let view = &plan.views()[0];
         measure(&mut rig);

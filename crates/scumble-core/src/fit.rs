@@ -29,6 +29,9 @@ use frame::Frame;
 /// Part of the depth range added at both ends, so that rounding clips no caster.
 const DEPTH_MARGIN: f64 = 1e-4;
 
+/// Share of a texel by which a box may stand over a line of the lattice, so that rounding adds no texels.
+const LATTICE_SLACK: f64 = 1e-6;
+
 /// Smallest extent, as a share of the scene's size, then of its distance from the world's origin (some 4,000 times the
 /// rounding of f64), then in metres. It gives scenes that are flat along the light, and single points, a box.
 const SMALLEST_OF_SIZE: f64 = 1e-6;
@@ -214,14 +217,33 @@ impl Fit {
     /// outermost receiver fall inside. `N` grows by 2 c texels, whatever the radius.
     #[must_use]
     pub fn with_border(&self, border_world: f64) -> Self {
-        let extent_world = self.extent_world + DVec2::splat(2.0 * border_world);
+        self.with_box(self.center, self.extent_world + DVec2::splat(2.0 * border_world))
+    }
+
+    /// The map widened to whole texels of the lattice through light space's origin, and how many they are: at most one
+    /// more on each side than the box needs, but at least `least`.
+    ///
+    /// Light space turns with the light alone, so its lattice stands still in the world while the observer moves: a map
+    /// that keeps its texel samples the same points, and shadows do not shimmer (course of Eisemann et al., 3.2.1).
+    #[must_use]
+    pub fn on_lattice(&self, texel_world: DVec2, least: u32) -> (Self, [u32; 2]) {
+        let first = ((self.center - 0.5 * self.extent_world) / texel_world + LATTICE_SLACK).floor();
+        let last = ((self.center + 0.5 * self.extent_world) / texel_world - LATTICE_SLACK).ceil();
+        let count = (last - first).max(DVec2::splat(f64::from(least)));
+        let first = first - (0.5 * (count - (last - first))).floor();
+        let center = (first + 0.5 * count) * texel_world;
+        (self.with_box(center, count * texel_world), [count.x as u32, count.y as u32])
+    }
+
+    /// The map with another box on the reference plane, around everything that it held.
+    fn with_box(&self, center: DVec2, extent_world: DVec2) -> Self {
         let scale = self.scale * self.extent_world / extent_world;
-        let mut wider = Self { extent_world, scale, ..self.clone() };
+        let mut other = Self { center, extent_world, scale, ..self.clone() };
         if let Light::Directional { .. } = self.light {
-            wider.depth_near = wider.first_caster().min(self.depth_near);
-            wider.widen_depth(0.0);
+            other.depth_near = other.first_caster().min(self.depth_near);
+            other.widen_depth(0.0);
         }
-        wider
+        other
     }
 
     fn clip_from_light(&self) -> DMat4 {

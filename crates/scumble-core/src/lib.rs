@@ -6,14 +6,15 @@
 //! 1. [`fit`] limits the light's view to what the observer sees: [`Fit`], with its extent L in x and y.
 //! 2. The screen's demand is its smallest filter radius r, [`Demand`]: the filter's own radius for percentage closer
 //!    filtering, measured from the last map for soft shadows.
-//! 3. [`Relation`] turns them into N = c L / r texels, x and y apart.
-//! 4. [`SizePolicy`] makes that a [`Size`] which changes rarely, within the caps, and says what it achieves.
+//! 3. [`Relation`] turns that into texels of r / c, and N = c L / r of them, x and y apart.
+//! 4. [`TexelPolicy`] makes that a texel which changes rarely, within the caps; [`Fit::on_lattice`] takes the box to whole
+//!    texels of a lattice that stands still in the world; [`Size`] says what is achieved.
 //! 5. The renderer draws a map of that size with [`Fit::clip_from_world`] and filters it as [`filter`] does: radius in
 //!    world units, taps of [`poisson_disc`], bias of [`ReceiverPlane`].
 //!
 //! ```
 //! use glam::{DVec3, dvec3};
-//! use scumble_core::{Aabb, Camera, Demand, Light, Settings, SizePolicy, fit};
+//! use scumble_core::{Aabb, Camera, Demand, Light, Settings, TexelPolicy, fit, size_achieved};
 //!
 //! let scene = Aabb { min: dvec3(-20.0, 0.0, -20.0), max: dvec3(20.0, 6.0, 20.0) };
 //! let sun = Light::Directional { direction: dvec3(0.3, -1.0, 0.2), half_angle: 0.0047 };
@@ -26,11 +27,14 @@
 //!     near: 0.1,
 //!     far: f64::INFINITY,
 //! };
-//! let mut policy = SizePolicy::new(&Settings::default())?;
+//! let settings = Settings::default();
+//! let mut policy = TexelPolicy::new(&settings)?;
 //! let radius_world = 0.25;
 //! if let Some(fit) = fit(&camera, &scene, &sun, true)? {
 //!     let fit = fit.with_border(radius_world);
-//!     let size = policy.next(fit.extent_world, Demand::Radius(radius_world))?;
+//!     let texel_world = policy.next(fit.extent_world, Demand::Radius(radius_world))?;
+//!     let (fit, texels) = fit.on_lattice(texel_world, settings.floor);
+//!     let size = size_achieved(texels, fit.extent_world, Some(radius_world), &settings.relation);
 //!     assert!(size.texels[0] < 1024 && size.c_effective >= 3.47);
 //! }
 //! # Ok::<(), scumble_core::Error>(())
@@ -38,7 +42,7 @@
 //!
 //! Lengths are metres, angles radians. Matrices are named `to_from_from`: `light_from_world` takes world coordinates to
 //! light space. World space is right-handed; clip space is wgpu's. This crate knows no GPU, file, clock or window.
-//! It does not split views into cascades, and it does not snap boxes to texels.
+//! It does not split views into cascades.
 
 mod aabb;
 mod bias;
@@ -62,7 +66,7 @@ pub use filter::Taps;
 pub use fit::{Fit, fit};
 pub use kernel::{half_plane_under_disc, pixel_hash, poisson_disc, rotation_angle};
 pub use light::Light;
-pub use policy::{Demand, Ladder, Size, SizePolicy, size_achieved};
+pub use policy::{Demand, Size, TexelPolicy, size_achieved};
 pub use relation::{RATIO_MAX, ROUNDING_SLACK, Relation, whole_texels};
 pub use relation_file::{
     ConditionEstimate, Estimate, FormTests, ModelParameters, NullTest, OtherEstimator, PopulationPoint, RelationFile,

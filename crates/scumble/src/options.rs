@@ -12,7 +12,8 @@ pub enum SizeChoice {
     /// From the filter's radius by the relation, between the settings' floor and cap.
     #[default]
     Adaptive,
-    /// These texels, whatever the filter: width and height of the viewport.
+    /// These texels, whatever the filter: width and height of the viewport. They stretch with the box, so they move in the
+    /// world when the camera does.
     Fixed([u32; 2]),
 }
 

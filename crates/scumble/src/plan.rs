@@ -1,14 +1,14 @@
 //! From camera, scene and lights to the maps of a frame. Pure: no GPU, and the state of the sizes is copied.
 //!
 //! By light: fit; border, so that the taps of the outermost receiver fall into the map; demand, measured or from
-//! bounds; size; matrices and uniforms. Demand without a measurement: the radius itself (PCF), the settings' smallest
+//! bounds; texel, and the box on its lattice; matrices and uniforms. Demand without a measurement: the radius itself (PCF), the settings' smallest
 //! radius (PCSS), 0 (one tap), so a PCSS map starts at the cap unless `radius_min_world` or `texel_floor_world` bound
 //! it.
 
 use bytemuck::Zeroable;
 use glam::{DMat4, DVec3, Mat4};
 use scumble_core::{
-    Aabb, Bias, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Settings, Size, SizePolicy, filter, fit,
+    Aabb, Bias, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Settings, Size, TexelPolicy, filter, fit,
     size_achieved,
 };
 
@@ -35,8 +35,8 @@ fn filter_kind(filter: &Filter) -> u32 {
 /// State of a light between frames.
 #[derive(Clone, Debug)]
 pub struct LightState {
-    /// Size of its map.
-    pub policy: SizePolicy,
+    /// Texel of its map.
+    pub policy: TexelPolicy,
     /// Newest measurement: radius over the reference depth of a spot, radius for other lights; `Some(None)` for no
     /// penumbra on screen, `None` before the first and where the light had no map.
     pub measured: Option<Option<f64>>,
@@ -63,7 +63,7 @@ pub fn plan(
         let Some(tight) = fit(camera, scene, light, options.fitted)? else { continue };
         let fit = tight.with_border(border_world(&tight, &options.filter));
         let demand = demand(settings, &options.filter, &fit, state.measured);
-        let size = size(settings, options, &mut plan.policies[index], &fit, demand)?;
+        let (fit, size) = sized(settings, options, &mut plan.policies[index], fit, demand)?;
         let view = view(settings, options, index as u32, fit, size);
         plan.uniform.lights[index] = light_uniform(settings, options, &view);
         plan.views.push(view);
@@ -105,23 +105,24 @@ pub fn measure_scale(fit: &Fit) -> f64 {
     }
 }
 
-fn size(
+/// The fit with its size: on the lattice of an adaptive texel, or as it is with fixed texels.
+fn sized(
     settings: &Settings,
     options: &Options,
-    policy: &mut SizePolicy,
-    fit: &Fit,
+    policy: &mut TexelPolicy,
+    fit: Fit,
     demand: Demand,
-) -> Result<Size, Error> {
-    match options.size {
-        SizeChoice::Adaptive => Ok(policy.next(fit.extent_world, demand)?),
-        SizeChoice::Fixed(texels) => {
-            let radius = match demand {
-                Demand::Radius(radius) => Some(radius),
-                Demand::Nothing => None,
-            };
-            Ok(size_achieved(texels, fit.extent_world, radius, &settings.relation, settings.cap))
-        }
-    }
+) -> Result<(Fit, Size), Error> {
+    let (fit, texels) = match options.size {
+        SizeChoice::Adaptive => fit.on_lattice(policy.next(fit.extent_world, demand)?, settings.floor),
+        SizeChoice::Fixed(texels) => (fit, texels),
+    };
+    let radius = match demand {
+        Demand::Radius(radius) => Some(radius.max(settings.radius_min_world)),
+        Demand::Nothing => None,
+    };
+    let size = size_achieved(texels, fit.extent_world, radius, &settings.relation);
+    Ok((fit, size))
 }
 
 fn view(settings: &Settings, options: &Options, light: u32, fit: Fit, size: Size) -> View {

@@ -1,6 +1,6 @@
 //! The object that a renderer keeps: maps, bindings, sizes and the demand pass of all its shadowed lights.
 
-use scumble_core::{Aabb, Camera, Filter, Light, Settings, SizePolicy};
+use scumble_core::{Aabb, Camera, Filter, Light, Settings, TexelPolicy};
 
 use crate::bindings::Bindings;
 use crate::counters::Counters;
@@ -55,7 +55,7 @@ impl Shadows {
         let options = options.checked(settings.cap)?;
         let maps = Maps::new(device, settings.cap, options.maps);
         let bindings = Bindings::new(device, &maps);
-        let state = LightState { policy: SizePolicy::new(&settings)?, measured: None };
+        let state = LightState { policy: TexelPolicy::new(&settings)?, measured: None };
         let counters =
             Counters { allocations: 1 + Bindings::ALLOCATIONS, map_bytes: maps.bytes(), ..Counters::default() };
         Ok(Self {
@@ -260,7 +260,7 @@ impl Shadows {
     /// # Errors
     /// None that creation has not found.
     pub fn reset(&mut self) -> Result<(), Error> {
-        let policy = SizePolicy::new(&self.settings)?;
+        let policy = TexelPolicy::new(&self.settings)?;
         for state in &mut self.states {
             *state = LightState { policy: policy.clone(), measured: None };
         }

@@ -1,7 +1,7 @@
 //! One map of a frame, and the plan that holds them all: what to draw, where, and how large.
 
 use glam::{DVec2, Mat4};
-use scumble_core::{Fit, Size, SizePolicy};
+use scumble_core::{Fit, Size, TexelPolicy};
 
 use crate::uniforms::LightsUniform;
 
@@ -43,7 +43,7 @@ impl View {
 #[derive(Clone, Debug)]
 pub struct Plan {
     pub(crate) views: Vec<View>,
-    pub(crate) policies: Vec<SizePolicy>,
+    pub(crate) policies: Vec<TexelPolicy>,
     pub(crate) uniform: LightsUniform,
 }
 

@@ -147,8 +147,11 @@ fn the_loop_comes_to_the_same_rest_from_the_smallest_and_the_largest_size() {
     let scene = || ground_and(slab(2.0, 0.3));
 
     let mut from_largest = Rig::new(settings(1024), adaptive.clone(), &scene());
-    let first = run(&mut from_largest, &sun, 1)[0];
-    assert_eq!(first, [1024, 1024], "without a measurement soft shadows start at the cap");
+    let first = run(&mut from_largest, &sun, 1)[0]; // Without a measurement.
+    assert!(
+        first.iter().all(|n| (860..=1024).contains(n)),
+        "soft shadows start a quarter octave below the cap or at it"
+    );
     let shrinking = run(&mut from_largest, &sun, 200);
 
     let mut from_smallest = Rig::new(settings(1024), fixed(Filter::Pcss, 8), &scene());

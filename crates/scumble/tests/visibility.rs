@@ -284,9 +284,9 @@ fn the_views_say_what_was_drawn() {
     let mut rig = Rig::new(settings(512), options, &ground_and(slab(2.0, 0.0)));
     let plan = rig.draw(&[sun_above(0.1)]);
     let view = &plan.views()[0];
-    // The relation by hand: 18 m across (the slab), c = 3.47, r = 0.25 m: 249.8 texels, next rung of the ladder 256.
+    // By hand: 18 m across (the slab), c = 3.47, r = 0.25 m: texels of 0.072 m, next rung of the ladder 1/16 m.
     assert!((view.fit.extent_world - DVec2::splat(18.0)).length() < 1e-6, "{}", view.fit.extent_world);
-    assert_eq!(view.size_texels, [256, 256]);
-    assert!(!view.size.capped && view.size.c_effective >= 3.47);
-    assert_eq!(plan.texels(), 256 * 256);
+    assert_eq!(view.size_texels, [288, 288]);
+    assert!(!view.size.capped && (view.size.c_effective - 4.0).abs() < 1e-9);
+    assert_eq!(plan.texels(), 288 * 288);
 }

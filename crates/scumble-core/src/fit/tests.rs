@@ -372,3 +372,61 @@ fn nan_is_refused_by_name() {
     let camera = Camera { eye: DVec3::new(f64::INFINITY, 0.0, 0.0), ..observer() };
     assert!(fit(&camera, &room(), &sun(), true).unwrap_err().to_string().contains("eye"));
 }
+
+/// Place of a point in texels of the lattice, fractional part: what must not change while the observer moves.
+fn in_texel(fit: &Fit, texels: [u32; 2], p: DVec3) -> DVec2 {
+    let (uv, _) = fit.uv_from_world(p);
+    let place = uv * DVec2::new(f64::from(texels[0]), f64::from(texels[1]));
+    place - place.round()
+}
+
+#[test]
+fn a_map_on_the_lattice_holds_its_box_with_less_than_a_texel_more_on_each_side() {
+    for fit in [sun_over_room(), lamp_over_room()] {
+        for texel in [DVec2::splat(0.011), DVec2::new(0.2, 0.03)] {
+            let (on, texels) = fit.on_lattice(texel, 8);
+            let count = DVec2::new(f64::from(texels[0]), f64::from(texels[1]));
+            assert!((on.extent_world - count * texel).abs().max_element() < 1e-9);
+            let (low, high) = (fit.center - 0.5 * fit.extent_world, fit.center + 0.5 * fit.extent_world);
+            let (on_low, on_high) = (on.center - 0.5 * on.extent_world, on.center + 0.5 * on.extent_world);
+            assert!((on_low - low).cmple(1e-5 * texel).all() && (low - on_low).cmplt(texel).all());
+            assert!((high - on_high).cmple(1e-5 * texel).all() && (on_high - high).cmplt(texel).all());
+        }
+        // A box of fewer texels than the least is filled up around it.
+        let (padded, texels) = fit.on_lattice(DVec2::splat(50.0), 8);
+        assert_eq!(texels, [8, 8]);
+        assert!(((padded.center - fit.center) / 400.0).abs().max_element() < 0.51);
+    }
+}
+
+#[test]
+fn a_box_of_whole_texels_gets_no_more() {
+    let (on, texels) = sun_over_room().on_lattice(DVec2::splat(0.01), 8);
+    let (again, same) = on.on_lattice(DVec2::splat(0.01), 8);
+    assert_eq!(texels, same);
+    assert!((on.center - again.center).length() < 1e-9);
+}
+
+proptest! {
+    #[test]
+    fn points_of_the_world_keep_their_place_in_the_texel_while_the_observer_moves(
+        shift in prop::array::uniform3(-0.4..0.4_f64),
+        turn in -0.3..0.3_f64,
+        texel in 0.002..0.1_f64,
+        is_sun in any::<bool>(),
+    ) {
+        let light = if is_sun { sun() } else { lamp() };
+        let still = observer();
+        let mut moved = still;
+        moved.eye += DVec3::from_array(shift);
+        moved.target += DVec3::new(turn, 0.0, 0.0);
+        let p = DVec3::new(0.3, 0.1, -0.2);
+        let of = |camera: &Camera| {
+            let (fit, texels) = fit(camera, &room(), &light, true).unwrap().unwrap().on_lattice(DVec2::splat(texel), 8);
+            in_texel(&fit, texels, p)
+        };
+        let difference = of(&still) - of(&moved);
+        // At a half, rounding may go either way.
+        prop_assert!((difference - difference.round()).length() < 1e-6, "{difference}");
+    }
+}
