@@ -25,6 +25,14 @@ pub enum Error {
         /// Its value in the truth.
         truth: f32,
     },
+    /// Rows that do not fill the picture.
+    #[error("rows of {width} pixels in a picture of {pixels}: allowed is a divisor")]
+    Width {
+        /// Pixels of a row.
+        width: usize,
+        /// Pixels of the picture.
+        pixels: usize,
+    },
     /// A number of rays that does not cut the light into equal areas.
     #[error("{found} samples of the light: allowed are {:?}", LightTruth::SAMPLES)]
     Samples {

@@ -3,8 +3,7 @@
 //! The colours are ColorBrewer's diverging scale RdBu (Harrower and Brewer 2003): lightness falls alike to both sides,
 //! hue tells the sign, and it is safe for the common forms of colour blindness.
 
-use crate::Error;
-use crate::metrics::check_lengths;
+use crate::{Error, check};
 
 /// sRGB of a pixel outside of the mask: darker than the scale's middle, without a hue.
 const OUTSIDE: [u8; 3] = [176; 3];
@@ -15,12 +14,9 @@ const OUTSIDE: [u8; 3] = [176; 3];
 /// # Errors
 /// Different numbers of pixels, and values inside the mask that are not finite.
 pub fn error_map(found: &[f32], truth: &[f32], mask: &[bool], full_scale: f32) -> Result<Vec<u8>, Error> {
-    check_lengths(found, truth, mask)?;
+    check::pictures(found, truth, mask)?;
     let mut rgb = Vec::with_capacity(3 * found.len());
-    for (pixel, ((&found, &truth), &inside)) in found.iter().zip(truth).zip(mask).enumerate() {
-        if inside && !(found.is_finite() && truth.is_finite()) {
-            return Err(Error::NotFinite { pixel, found, truth });
-        }
+    for ((&found, &truth), &inside) in found.iter().zip(truth).zip(mask) {
         rgb.extend(if inside { color((found - truth) / full_scale) } else { OUTSIDE });
     }
     Ok(rgb)

@@ -8,6 +8,8 @@
 //! * [`LightTruth`]: the share of the light's own area that a point sees, by stratified rays, with its standard error.
 //! * [`Differences`] and [`error_map`]: maximum, 99th percentile, RMS and bias over a mask of pixels, and their
 //!   picture.
+//! * [`edge_displacement`]: how far a shadow's edge is from where it should be, in pixels.
+//! * [`edge_tilt`]: how far it turns away from the true edge, against what observers see.
 //!
 //! * Closed forms: [`slit_under_disc`], [`disc_under_disc`], [`polygon_under_disc`], [`half_plane_under_rectangle`] and
 //!   [`rectangle_under_rectangle`], beside [`scumble_core::half_plane_under_disc`]. A share is a visibility when an
@@ -16,7 +18,11 @@
 //! Rays are checked against closed forms (`tests/closed_forms.rs`), closed forms by counting and against each other.
 //! Not goals: other filters than the renderer's, lights that are no discs.
 
+mod check;
 mod closed_form;
+mod contour;
+mod edge_displacement;
+mod edge_tilt;
 mod error;
 mod error_map;
 mod kernel_truth;
@@ -25,11 +31,14 @@ mod light_truth;
 mod metrics;
 mod rays;
 mod tap;
+mod weighted;
 
 pub use closed_form::{
     Rectangle, disc_under_disc, half_plane_under_rectangle, polygon_under_disc, rectangle_under_rectangle,
     slit_under_disc,
 };
+pub use edge_displacement::{EdgeDisplacement, edge_displacement};
+pub use edge_tilt::{EdgeTilt, HIDDEN_TILT_DEG, edge_tilt};
 pub use error::Error;
 pub use error_map::error_map;
 pub use kernel_truth::{KernelTruth, Receiver};

@@ -7,7 +7,7 @@
 //! ```
 //! A value that is not finite is an error, not a difference: a NaN would vanish from a maximum.
 
-use crate::Error;
+use crate::{Error, check};
 
 /// Differences of visibility, in shares of full light.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -29,16 +29,9 @@ pub struct Differences {
 /// # Errors
 /// Different numbers of pixels, and values inside the mask that are not finite.
 pub fn differences(found: &[f32], truth: &[f32], mask: &[bool]) -> Result<Differences, Error> {
-    check_lengths(found, truth, mask)?;
-    let mut signed = Vec::new();
-    for (pixel, ((&found, &truth), _)) in
-        found.iter().zip(truth).zip(mask).enumerate().filter(|(_, (_, inside))| **inside)
-    {
-        if !(found.is_finite() && truth.is_finite()) {
-            return Err(Error::NotFinite { pixel, found, truth });
-        }
-        signed.push(f64::from(found) - f64::from(truth));
-    }
+    check::pictures(found, truth, mask)?;
+    let inside = found.iter().zip(truth).zip(mask).filter(|(_, inside)| **inside);
+    let signed: Vec<f64> = inside.map(|((&found, &truth), _)| f64::from(found) - f64::from(truth)).collect();
     Ok(summary(&signed))
 }
 
@@ -48,16 +41,8 @@ pub fn differences(found: &[f32], truth: &[f32], mask: &[bool]) -> Result<Differ
 /// # Errors
 /// Different numbers of pixels.
 pub fn penumbra(truth: &[f32], mask: &[bool]) -> Result<Vec<bool>, Error> {
-    check_lengths(truth, truth, mask)?;
+    check::lengths(truth, truth, mask)?;
     Ok(truth.iter().zip(mask).map(|(&visibility, &inside)| inside && visibility > 0.0 && visibility < 1.0).collect())
-}
-
-pub(crate) fn check_lengths(found: &[f32], truth: &[f32], mask: &[bool]) -> Result<(), Error> {
-    if found.len() == truth.len() && found.len() == mask.len() {
-        Ok(())
-    } else {
-        Err(Error::Lengths { found: found.len(), truth: truth.len(), mask: mask.len() })
-    }
 }
 
 fn summary(signed: &[f64]) -> Differences {
