@@ -1,6 +1,7 @@
 //! Ground truth for shadow maps, on the CPU: what the shadow would be without texels, and how far a picture is from it.
 //!
-//! * [`Rays`]: the nearest hit on a ray, and whether a segment is free, exact to `f64` on a scene's triangles.
+//! * [`Rays`]: the nearest hit on a ray, and whether a segment is free, exact to `f64` on a scene's triangles;
+//!   [`Skipped`] tells the triangles that are no surface.
 //! * [`KernelTruth`]: the filter of [`scumble_core::filter`] with a ray in place of every map lookup. Taps, rotation
 //!   and radii are those of the shader. A tap asks whether light reaches the surface around the receiver, where a map
 //!   compares with the tangent plane. So what differs is the texel, its bias, and what the map calls shaded where a lit
@@ -25,12 +26,14 @@ mod edge_displacement;
 mod edge_tilt;
 mod error;
 mod error_map;
+mod hierarchy;
 mod kernel_truth;
 mod light_samples;
 mod light_truth;
 mod metrics;
 mod rays;
 mod tap;
+mod triangle;
 mod weighted;
 
 pub use closed_form::{
@@ -45,3 +48,4 @@ pub use kernel_truth::{KernelTruth, Receiver};
 pub use light_truth::{Estimate, LightTruth};
 pub use metrics::{Differences, differences, penumbra};
 pub use rays::{Hit, Rays};
+pub use triangle::Skipped;

@@ -117,7 +117,9 @@ impl<'a> LightTruth<'a> {
         match self.light {
             Light::Directional { half_angle, .. } => {
                 let from_light = self.world_from_light * (half_angle.tan() * disc).extend(-1.0);
-                start - from_light * (SUN_DISTANCE * self.rays.diagonal())
+                let diagonal = self.rays.diagonal();
+                // Any distance does where there is nothing.
+                start - from_light * if diagonal > 0.0 { SUN_DISTANCE * diagonal } else { 1.0 }
             }
             Light::Spot { position, radius_world, .. } => {
                 position + self.world_from_light * (radius_world * disc).extend(0.0)

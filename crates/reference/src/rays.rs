@@ -12,16 +12,16 @@
 //! Triangles by Moeller and Trumbore, *Fast, minimum storage ray/triangle intersection* (1997).
 
 use glam::{DVec3, Vec3A};
-use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
+use obvhs::aabb::Aabb;
+use obvhs::cwbvh::CwBvh;
 use obvhs::ray::{Ray, RayHit};
-use obvhs::{BvhBuildParams, aabb::Aabb};
 use scumble_scenes::Scene;
-use std::time::Duration;
+
+use crate::hierarchy::hierarchy;
+use crate::triangle::{EDGE_TOLERANCE, Skipped, Triangle, triangles_of};
 
 /// Growth of the boxes by this share of the scene's extent. A `f32` origin and slab test are off by a few 6e-8.
 const PADDING: f64 = 1e-6;
-/// Barycentric coordinates down to this count as inside: far above `f64` rounding, far below a `f32` position's.
-const EDGE_TOLERANCE: f64 = 1e-10;
 /// The scene's diagonal in local units. The tree ignores boxes that end within 1e-4 units of a ray's origin, whatever
 /// the ray's direction is: 1e-7 of the diagonal, a hundredth of [`Rays::epsilon`].
 const LOCAL_EXTENT: f64 = 1000.0;
@@ -31,20 +31,13 @@ const EPSILON: f64 = 1e-5;
 /// A scene prepared for rays.
 pub struct Rays {
     hierarchy: CwBvh,
-    /// In the hierarchy's order.
+    /// In local coordinates, in the hierarchy's order.
     triangles: Vec<Triangle>,
+    skipped: Vec<Skipped>,
     middle: DVec3,
     /// Metres.
     diagonal: f64,
     local_per_metre: f64,
-}
-
-/// In local coordinates.
-struct Triangle {
-    corner: DVec3,
-    edges: [DVec3; 2],
-    shading_normals: [DVec3; 3],
-    mesh: u32,
 }
 
 /// The nearest point of the scene on a ray.
@@ -66,27 +59,30 @@ pub struct Hit {
 }
 
 impl Rays {
-    /// Builds the hierarchy: about a quarter of a second for 100,000 triangles.
+    /// Builds the hierarchy: about a quarter of a second for 100,000 triangles. What is no surface is left out and told
+    /// by [`Rays::skipped`].
     pub fn new(scene: &Scene) -> Self {
-        let bounds = scene.bounds();
-        let middle = (bounds.min + bounds.max) / 2.0;
-        let diagonal = (bounds.max - bounds.min).length();
+        let (mut triangles, skipped) = triangles_of(scene);
+        let extremes = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let corners = triangles.iter().flat_map(Triangle::corners);
+        let (min, max) = corners.fold(extremes, |(min, max), corner| (min.min(corner), max.max(corner)));
+        let (middle, diagonal) =
+            if triangles.is_empty() { (DVec3::ZERO, 0.0) } else { ((min + max) / 2.0, (max - min).length()) };
         let local_per_metre = if diagonal > 0.0 { LOCAL_EXTENT / diagonal } else { 1.0 };
-        let triangles = triangles_of(scene, middle, local_per_metre);
+        triangles.iter_mut().for_each(|triangle| triangle.make_local(middle, local_per_metre));
         let boxes: Vec<Aabb> = triangles.iter().map(|triangle| triangle.padded_box(PADDING * LOCAL_EXTENT)).collect();
-
-        // An empty scene has an empty tree, which the builder does not make.
-        let hierarchy = if boxes.is_empty() {
-            CwBvh::default()
-        } else {
-            build_cwbvh(&boxes, BvhBuildParams::medium_build(), &mut Duration::default())
-        };
+        let hierarchy = hierarchy(&boxes);
+        drop(boxes);
 
         // Leaves that lie together in memory are met together.
-        let mut unordered: Vec<Option<Triangle>> = triangles.into_iter().map(Some).collect();
-        let triangles =
-            hierarchy.primitive_indices.iter().filter_map(|&index| unordered[index as usize].take()).collect();
-        Self { hierarchy, triangles, middle, diagonal, local_per_metre }
+        let in_order = hierarchy.primitive_indices.iter().map(|&index| triangles[index as usize].clone());
+        let triangles = in_order.collect();
+        Self { hierarchy, triangles, skipped, middle, diagonal, local_per_metre }
+    }
+
+    /// What rays pass through, by mesh; empty for what the loaders of scenes return.
+    pub fn skipped(&self) -> &[Skipped] {
+        &self.skipped
     }
 
     /// The length below which two surfaces are one, in metres: 1e-5 of the scene's diagonal.
@@ -174,73 +170,6 @@ fn narrow(origin: DVec3, direction: DVec3, length: f64) -> Ray {
 /// A distance for the tree: larger by one part in a million, so that no box is dropped that the exact distance enters.
 fn moved_out(distance: f64) -> f32 {
     ((distance * (1.0 + PADDING)) as f32).min(f32::MAX)
-}
-
-fn triangles_of(scene: &Scene, middle: DVec3, local_per_metre: f64) -> Vec<Triangle> {
-    let mut triangles = Vec::with_capacity(scene.triangle_count());
-    for (mesh_index, mesh) in scene.meshes.iter().enumerate() {
-        for triangle in &mesh.triangles {
-            let [a, b, c] = triangle.map(|i| (mesh.positions[i as usize].as_dvec3() - middle) * local_per_metre);
-            triangles.push(Triangle {
-                corner: a,
-                edges: [b - a, c - a],
-                shading_normals: triangle.map(|i| mesh.normals[i as usize].as_dvec3()),
-                mesh: mesh_index as u32,
-            });
-        }
-    }
-    triangles
-}
-
-/// Where a line meets a triangle.
-struct Meeting {
-    distance: f64,
-    /// Weights of the second and third corner.
-    barycentric: [f64; 2],
-}
-
-impl Triangle {
-    fn padded_box(&self, padding: f64) -> Aabb {
-        let corners = [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]];
-        let min = corners[0].min(corners[1]).min(corners[2]) - padding;
-        let max = corners[0].max(corners[1]).max(corners[2]) + padding;
-        Aabb::new(Vec3A::from(min.as_vec3()), Vec3A::from(max.as_vec3()))
-    }
-
-    /// `origin + t direction = corner + u e_0 + v e_1`, solved by Cramer's rule.
-    fn meet(&self, origin: DVec3, direction: DVec3) -> Option<Meeting> {
-        let [e0, e1] = self.edges;
-        let p = direction.cross(e1);
-        let determinant = e0.dot(p);
-        if determinant == 0.0 {
-            return None;
-        }
-        let inverse = 1.0 / determinant;
-        let s = origin - self.corner;
-        let u = s.dot(p) * inverse;
-        let q = s.cross(e0);
-        let v = direction.dot(q) * inverse;
-        let inside = u >= -EDGE_TOLERANCE && v >= -EDGE_TOLERANCE && u + v <= 1.0 + EDGE_TOLERANCE;
-        inside.then(|| Meeting { distance: e1.dot(q) * inverse, barycentric: [u, v] })
-    }
-
-    fn hit(&self, meeting: &Meeting, direction: DVec3, distance: f64, origin: DVec3) -> Hit {
-        let towards_origin = |normal: DVec3| if normal.dot(direction) > 0.0 { -normal } else { normal };
-        let geometric_normal = towards_origin(self.edges[0].cross(self.edges[1]).normalize());
-
-        let [u, v] = meeting.barycentric;
-        let [n0, n1, n2] = self.shading_normals;
-        let interpolated = (n0 * (1.0 - u - v) + n1 * u + n2 * v).normalize_or(geometric_normal);
-        let shading_normal = if interpolated.dot(geometric_normal) < 0.0 { -interpolated } else { interpolated };
-        Hit {
-            distance,
-            position: origin + direction * distance,
-            geometric_normal,
-            shading_normal,
-            front: (n0 + n1 + n2).dot(direction) <= 0.0,
-            mesh: self.mesh as usize,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -53,6 +53,7 @@ pub fn run(options: &Truth) -> Result<()> {
     let pixels = stage.receivers([conditions.width, conditions.height], 1)?;
     let surfaces = pixels.read_surfaces(&stage.gpu)?;
     let rays = Rays::new(&stage.setup.scene);
+    rays.skipped().iter().for_each(|skipped| eprintln!("warning: {skipped}"));
     let plan = if samples.of_light().is_none() {
         let mut fitted = Variant::new(&stage, &pixels, options.method, Size::Fixed([FIT_TEXELS; 2]))?;
         fitted.frame(&stage, &pixels, &mut Timer::new(&stage.gpu))?;
