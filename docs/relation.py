@@ -51,11 +51,11 @@ def log10_threshold(answers, guess):
 
 def guess_rate(person):
     """One half with two pictures; with one, how often the person called a line an artifact."""
-    lines = trials[(trials.person == person) & (trials.role == "line") & trials.excluded.isna()]
+    lines = trials[(trials.person == person) & (trials.role == "line") & (trials.stands == 1) & trials.excluded.isna()]
     return 0.5 if lines.empty else ((1 - lines.correct).sum() + 0.5) / (len(lines) + 1)
 
 
-measured = trials[(trials.role == "measure") & trials.excluded.isna()]
+measured = trials[(trials.role == "measure") & (trials.stands == 1) & trials.excluded.isna()]
 condition = ["pattern", "contrast", "kernel"]
 thresholds = pd.DataFrame(
     {**dict(zip([*condition, "texel_px", "person"], key)), "ratio": 10 ** log10_threshold(answers, guess_rate(key[-1]))}

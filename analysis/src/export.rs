@@ -6,7 +6,6 @@
 //! nothing is lost and the dataset can be fitted again. Numbers are those of the record: nothing is
 //! computed here but sums.
 
-mod column;
 mod dataset;
 mod description;
 mod event_column;

@@ -17,7 +17,8 @@ use crate::{
     report::{Figures, REPORT, REPORT_MARK, report_html},
     residual_figure::RESIDUAL_FIGURE,
     staircase_figure::STAIRCASE_FIGURE,
-    study_tables::{THRESHOLDS_MARK, THRESHOLDS_TABLE, TRIALS_MARK, TRIALS_TABLE, thresholds_csv, trials_csv},
+    study_tables::{THRESHOLDS_MARK, THRESHOLDS_TABLE, thresholds_csv},
+    trial_table::{TRIALS_COLUMNS, TRIALS_COLUMNS_MARK, TRIALS_MARK, TRIALS_TABLE, trials_columns, trials_csv},
 };
 
 /// File name of the relation.
@@ -48,6 +49,7 @@ pub fn fit_study(study: &Study, folder: &Path) -> Result<Analysis, Error> {
             output(RELATION, relation, scumble_core::SCHEMA),
             output(REPORT, report, REPORT_MARK),
             output(TRIALS_TABLE, trials_csv(study)?, TRIALS_MARK),
+            output(TRIALS_COLUMNS, trials_columns()?, TRIALS_COLUMNS_MARK),
             output(THRESHOLDS_TABLE, thresholds_csv(&analysis.thresholds)?, THRESHOLDS_MARK),
             output(FIT_FIGURE, figures.fit, FIGURE_MARK),
             output(PSYCHOMETRIC_FIGURE, figures.psychometric, FIGURE_MARK),

@@ -38,7 +38,8 @@ enum Command {
   scumble-analysis fit data --out fit              every session in the folder data
   scumble-analysis fit data/p01 data/p02 --out fit two sessions
 
-Writes into OUT: relation.json, report.html, trials.csv, thresholds.csv, fit.svg, staircases.svg.
+Writes into OUT: relation.json, report.html, trials.csv (its columns are described in trials.json), thresholds.csv, and the
+figures as SVG.
 Running it again replaces these files; a file of another kind under one of the names is refused.
 
 The largest ratio under the protocol's first kernel goes into relation.json: a ratio holds for one kernel.

@@ -66,22 +66,6 @@ fn twelve_observers_give_back_their_ratio_within_three_standard_errors() {
 }
 
 #[test]
-fn over_forty_cohorts_the_bias_is_small_and_the_interval_covers() {
-    let cohorts = 40;
-    let (mut sum_log10, mut covered) = (0.0, 0);
-    for seed in 0..cohorts {
-        let analysis = Analysis::of(&simulation(8, 1000 + seed).study().unwrap()).unwrap();
-        let step = analysis.series.iter().find(|s| s.name == "step, 100 % contrast").unwrap();
-        sum_log10 += step.log10_ratio.value - 3.47_f64.log10();
-        let [low, high] = step.ratio_ci95();
-        covered += u32::from(low < 3.47 && 3.47 < high);
-    }
-    // RMS error of a cohort is 0.04 log10, so the mean of 40 is known to 0.0065: 3 of these.
-    assert!((sum_log10 / cohorts as f64).abs() < 0.02, "{sum_log10}");
-    assert!(covered >= 34, "{covered} of {cohorts} intervals cover; 38 are expected");
-}
-
-#[test]
 fn memory_and_disk_give_the_same_people() {
     let folder = sessions();
     let on_disk = read(folder.path()).unwrap();
@@ -138,6 +122,7 @@ fn fit_writes_a_relation_that_the_renderer_reads_and_replaces_its_own_files() {
         "staircases.svg",
         "thresholds.csv",
         "trials.csv",
+        "trials.json",
     ];
     assert_eq!(names, expected);
 }
@@ -315,8 +300,13 @@ fn answers_of_a_repeated_round_count_nowhere() {
     assert_eq!(measured, progress.trials as usize);
     let checked = person.checks.lines + person.checks.catches;
     assert_eq!(checked + progress.trials, progress.answered, "no line and no catch trial of the repeated round");
-    let rows = trials_csv(&study).unwrap().lines().filter(|row| row.starts_with("sim-0002,")).count();
-    assert_eq!(rows, progress.answered as usize);
+    let table = trials_csv(&study).unwrap();
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let stands = reader.headers().unwrap().iter().position(|name| name == "stands").unwrap();
+    let rows: Vec<_> = reader.records().map(Result::unwrap).filter(|row| &row[0] == "sim-0002").collect();
+    let standing = rows.iter().filter(|row| &row[stands] == "1").count();
+    assert_eq!(standing, progress.answered as usize);
+    assert!(rows.len() > standing, "the answers of the repeated round are in the table, and do not stand");
 }
 
 #[test]

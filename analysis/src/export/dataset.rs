@@ -9,13 +9,13 @@ use rayon::prelude::*;
 use scumble_psychophysics::{EVENTS_FILE, HEADER_FILE};
 use serde::Serialize;
 
-use super::column::{Column, Sidecar, tsv};
 use super::description::{Description, README};
 use super::event_column::event_columns;
 use super::event_row::event_rows;
 use super::events_sidecar::EventsSidecar;
 use super::exported_session::ExportedSession;
 use super::people_column::{Participant, participant_columns, session_columns};
+use crate::column::{Column, Sidecar, tsv};
 use crate::{Error, load::record_sha256};
 
 /// Writes the dataset of `sessions`, which stand together by participant, into the folder `out`.

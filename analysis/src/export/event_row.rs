@@ -8,8 +8,8 @@
 use jiff::Timestamp;
 use scumble_psychophysics::{Answered, EVENTS_FILE, Event, Moment, Session};
 
-use super::column::{Cell, word};
 use crate::Error;
+use crate::column::{Cell, word};
 
 /// An event with its place in time.
 pub(super) struct EventRow<'a> {

@@ -9,7 +9,7 @@ use serde::{
     ser::{SerializeMap, Serializer},
 };
 
-use super::column::{Column, describe};
+use crate::column::{Column, describe};
 
 /// Lengths in BIDS are metres.
 const MM_PER_M: f64 = 1000.0;

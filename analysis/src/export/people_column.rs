@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use scumble_psychophysics::{Demographics, Display, Handedness};
 
-use super::column::{Cell, Column, Levels, YES_NO, flag, number, word};
 use super::exported_session::{ExportedSession, Status};
+use crate::column::{Cell, Column, Levels, YES_NO, flag, number, word};
 use crate::load::directory_name;
 
 /// A column of people.

@@ -1,8 +1,7 @@
-//! A column of a BIDS table: its name, what the JSON beside the table says of it, and the cell that a row has
-//! in it.
+//! A column of a table: its name, what the JSON beside the table says of it, and the cell that a row has in it.
 //!
 //! One list of columns makes both files, so that no column is without a description and no description without
-//! a column. A missing value is `n/a`, as BIDS asks; text is kept in one cell of one line.
+//! a column. Text is kept in one cell of one line.
 
 use std::path::Path;
 
@@ -14,18 +13,18 @@ use serde::{
 use crate::Error;
 
 /// What stands in a cell; `None` where there is no value.
-pub(super) type Cell = Option<String>;
+pub(crate) type Cell = Option<String>;
 
 /// The words of a column and what each means.
-pub(super) type Levels = &'static [(&'static str, &'static str)];
+pub(crate) type Levels = &'static [(&'static str, &'static str)];
 
 /// Yes and no, for columns that hold nothing else.
-pub(super) const YES_NO: Levels = &[("1", "yes"), ("0", "no")];
+pub(crate) const YES_NO: Levels = &[("1", "yes"), ("0", "no")];
 
 /// A column over rows of one kind.
-pub(super) struct Column<R> {
+pub(crate) struct Column<R> {
     /// Its header.
-    pub(super) name: &'static str,
+    pub(crate) name: &'static str,
     long_name: &'static str,
     description: &'static str,
     units: Option<&'static str>,
@@ -35,7 +34,7 @@ pub(super) struct Column<R> {
 
 impl<R> Column<R> {
     /// A column without unit and without a fixed set of words.
-    pub(super) fn new(
+    pub(crate) fn new(
         name: &'static str,
         long_name: &'static str,
         description: &'static str,
@@ -45,12 +44,12 @@ impl<R> Column<R> {
     }
 
     /// The same column with the unit of its numbers.
-    pub(super) fn in_units(self, units: &'static str) -> Self {
+    pub(crate) fn in_units(self, units: &'static str) -> Self {
         Self { units: Some(units), ..self }
     }
 
     /// The same column with all the words that it may hold.
-    pub(super) fn of_levels(self, levels: Levels) -> Self {
+    pub(crate) fn of_levels(self, levels: Levels) -> Self {
         Self { levels, ..self }
     }
 }
@@ -71,7 +70,7 @@ struct Described {
 ///
 /// # Errors
 /// The serializer's.
-pub(super) fn describe<R, M: SerializeMap>(columns: &[Column<R>], map: &mut M) -> Result<(), M::Error> {
+pub(crate) fn describe<R, M: SerializeMap>(columns: &[Column<R>], map: &mut M) -> Result<(), M::Error> {
     columns.iter().try_for_each(|column| {
         let Column { long_name, description, units, levels, .. } = *column;
         map.serialize_entry(column.name, &Described { long_name, description, units, levels })
@@ -79,7 +78,7 @@ pub(super) fn describe<R, M: SerializeMap>(columns: &[Column<R>], map: &mut M) -
 }
 
 /// A sidecar that holds descriptions of columns and nothing else.
-pub(super) struct Sidecar<'a, R>(pub(super) &'a [Column<R>]);
+pub(crate) struct Sidecar<'a, R>(pub(crate) &'a [Column<R>]);
 
 impl<R> Serialize for Sidecar<'_, R> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -94,12 +93,25 @@ impl<R> Serialize for Sidecar<'_, R> {
 ///
 /// # Errors
 /// The writer's.
-pub(super) fn tsv<R>(name: &Path, columns: &[Column<R>], rows: &[R]) -> Result<String, Error> {
+pub(crate) fn tsv<R>(name: &Path, columns: &[Column<R>], rows: &[R]) -> Result<String, Error> {
+    separated(name, columns, rows, b'\t', "n/a")
+}
+
+/// The table with commas between the cells, a header, and nothing for what is missing.
+///
+/// # Errors
+/// The writer's.
+pub(crate) fn csv<R>(name: &Path, columns: &[Column<R>], rows: &[R]) -> Result<String, Error> {
+    separated(name, columns, rows, b',', "")
+}
+
+fn separated<R>(name: &Path, columns: &[Column<R>], rows: &[R], delimiter: u8, missing: &str) -> Result<String, Error> {
     let failed = |error: csv::Error| Error::io(name)(error.into());
-    let mut writer = csv::WriterBuilder::new().delimiter(b'\t').from_writer(Vec::new());
+    let mut writer = csv::WriterBuilder::new().delimiter(delimiter).from_writer(Vec::new());
     writer.write_record(columns.iter().map(|column| column.name)).map_err(failed)?;
     for row in rows {
-        let cells = columns.iter().map(|column| (column.cell)(row).map_or("n/a".to_owned(), |text| in_one_line(&text)));
+        let cells =
+            columns.iter().map(|column| (column.cell)(row).map_or(missing.to_owned(), |text| in_one_line(&text)));
         writer.write_record(cells).map_err(failed)?;
     }
     let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
@@ -115,17 +127,17 @@ fn in_one_line(text: &str) -> String {
 }
 
 /// A number in the fewest digits that give it back.
-pub(super) fn number(value: f64) -> Cell {
+pub(crate) fn number(value: f64) -> Cell {
     Some(value.to_string())
 }
 
 /// 1 or 0, described by [`YES_NO`].
-pub(super) fn flag(value: bool) -> Cell {
+pub(crate) fn flag(value: bool) -> Cell {
     Some(u8::from(value).to_string())
 }
 
 /// The word by which a value stands in the record; `None` for a value that is not a word there.
-pub(super) fn word(value: impl Serialize) -> Cell {
+pub(crate) fn word(value: impl Serialize) -> Cell {
     serde_json::to_value(value).ok()?.as_str().map(str::to_owned)
 }
 
