@@ -33,6 +33,45 @@ pub enum Error {
         /// Pixels of the picture.
         pixels: usize,
     },
+    /// An array with another number of values than there are pixels in the mask.
+    #[error("{found} values under a mask of {allowed} pixels: allowed are equal numbers")]
+    Count {
+        /// Values of the array.
+        found: usize,
+        /// Pixels of the mask.
+        allowed: usize,
+    },
+    /// A value of a series is not a number.
+    #[error("pixel {pixel} of frame {frame} is {found}: allowed are finite numbers")]
+    Frame {
+        /// Index of the frame in the series.
+        frame: usize,
+        /// Index of the pixel or point.
+        pixel: usize,
+        /// Its value.
+        found: f32,
+    },
+    /// A switch that is not between two frames.
+    #[error("a switch at frame {found} of {frames}: allowed are frames with a frame before them")]
+    Switch {
+        /// Index of the frame.
+        found: usize,
+        /// Number of frames.
+        frames: usize,
+    },
+    /// A filter or a texel without a size.
+    #[error(
+        "pixel {pixel} has a filter of radius {radius} and a texel of {texel}: allowed are a finite radius of at least \
+         0 and a finite texel above 0"
+    )]
+    Filter {
+        /// Index of the pixel.
+        pixel: usize,
+        /// Radius of its filter.
+        radius: f32,
+        /// Texel of the map there.
+        texel: f32,
+    },
     /// A number of rays that does not cut the light into equal areas.
     #[error("{found} samples of the light: allowed are {:?}", LightTruth::SAMPLES)]
     Samples {

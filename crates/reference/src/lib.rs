@@ -11,6 +11,8 @@
 //!   picture.
 //! * [`edge_displacement`]: how far a shadow's edge is from where it should be, in pixels.
 //! * [`edge_tilt`]: how far it turns away from the true edge, against what observers see.
+//! * [`error_parts`]: what part of an error is noise. [`violation_share`]: where a filter is too narrow for its texel.
+//! * [`pop`](pop()) and [`shimmer`](shimmer()): what changes when the map's size does, and when the camera creeps.
 //!
 //! * Closed forms: [`slit_under_disc`], [`disc_under_disc`], [`polygon_under_disc`], [`half_plane_under_rectangle`] and
 //!   [`rectangle_under_rectangle`], beside [`scumble_core::half_plane_under_disc`]. A share is a visibility when an
@@ -31,9 +33,13 @@ mod kernel_truth;
 mod light_samples;
 mod light_truth;
 mod metrics;
+mod noise;
+mod pop;
 mod rays;
+mod shimmer;
 mod tap;
 mod triangle;
+mod violation;
 mod weighted;
 
 pub use closed_form::{
@@ -47,5 +53,9 @@ pub use error_map::error_map;
 pub use kernel_truth::{KernelTruth, Receiver};
 pub use light_truth::{Estimate, LightTruth};
 pub use metrics::{Differences, differences, penumbra};
+pub use noise::{ErrorParts, error_parts};
+pub use pop::{Pop, pop};
 pub use rays::{Hit, Rays};
+pub use shimmer::{Shimmer, shimmer};
 pub use triangle::Skipped;
+pub use violation::{Violation, violation_share};
