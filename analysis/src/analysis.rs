@@ -3,8 +3,8 @@
 use std::f64::consts::LN_10;
 
 use scumble_core::{
-    ConditionEstimate, Estimate, FormTests, ModelParameters, NullTest, OtherEstimator, PopulationPoint as FilePoint,
-    Relation, RelationFile, SCHEMA,
+    ConditionEstimate, Estimate, FormTests, GoodnessOfFit as FileFit, ModelParameters, NullTest, OtherEstimator,
+    PopulationPoint as FilePoint, Relation, RelationFile, SCHEMA,
 };
 use scumble_psychophysics::{Protocol, Round};
 
@@ -12,6 +12,7 @@ use crate::{
     Error,
     effects::{Effect, effects},
     estimate::MeanOverPeople,
+    goodness_of_fit::GoodnessOfFit,
     mixed_model::MixedParameters,
     people::Study,
     population::Population,
@@ -30,6 +31,8 @@ pub struct Analysis {
     pub thresholds: Vec<ConditionThreshold>,
     /// Every pattern, contrast and kernel that at least two people's answers bound.
     pub series: Vec<Series>,
+    /// Whether the model fits, for each of `series`.
+    pub goodness: Vec<GoodnessOfFit>,
     /// Index of the worst series: the largest ratio under the protocol's first kernel. It is the
     /// renderer's number, which holds for one kernel.
     pub worst: usize,
@@ -75,10 +78,14 @@ impl Analysis {
             return Err(refusal.unwrap_or_else(no_series));
         };
 
+        let goodness = series
+            .iter()
+            .map(|series| GoodnessOfFit::of(series, &study.people, protocol))
+            .collect::<Result<_, Error>>()?;
         let population = Population::of(&series[worst].fit)?;
         let effects = effects(&series, &study.people, protocol);
         let under_priors = under_priors(&series[worst], &study.people, protocol)?;
-        Ok(Self { thresholds, series, worst, population, effects, under_priors, exclusions })
+        Ok(Self { thresholds, series, goodness, worst, population, effects, under_priors, exclusions })
     }
 
     /// The series whose ratio a renderer uses.
@@ -113,11 +120,20 @@ impl Analysis {
             conditions: self
                 .series
                 .iter()
-                .map(|series| ConditionEstimate {
+                .zip(&self.goodness)
+                .map(|(series, fit)| ConditionEstimate {
                     pattern: pattern_name(series.round.pattern).to_owned(),
                     contrast: series.round.contrast,
                     kernel: Some(kernel_name(series.round.kernel).to_owned()),
                     ratio: ratio_of(series),
+                    goodness_of_fit: Some(FileFit {
+                        chi_square: fit.chi_square,
+                        expected: fit.expected,
+                        p_value: fit.p_value,
+                        drift: fit.drift,
+                        drift_p_value: fit.drift_p_value,
+                        cohorts: fit.cohorts.into(),
+                    }),
                 })
                 .collect(),
             model: Some(model_of(worst)),

@@ -7,6 +7,7 @@
 //! | ratio | [`Series`], [`MixedModel`] | per pattern, contrast and kernel: one likelihood of every answer, thresholds log-normal over people; beside it the mean of log10 ratios and the published line through the origin |
 //! | threshold | [`thresholds_of`], [`joint_threshold`] | a person's Weibull function by maximum likelihood ([`fit`]) under [`Assumptions`]: everyone's slope and blind trials, guess rate of the protocol or counted |
 //! | worst case | [`Analysis`] | the largest ratio under the first kernel is the renderer's number |
+//! | fit | [`GoodnessOfFit`] | whether the model fits: cohorts of the fitted model in the same experiment |
 //! | population | [`Population`] | from the median person to 90, 95, 99 % of viewers |
 //! | what moves it | [`Effect`], [`UnderPrior`] | pattern, contrast, round; the staircases' prior |
 //! | files | [`fit_study`] | relation, report, tables, figures, written together |
@@ -44,6 +45,7 @@ mod export;
 mod figure;
 mod fit_figure;
 mod fit_outputs;
+mod goodness_of_fit;
 mod load;
 mod maximum_likelihood;
 mod mixed_model;
@@ -85,6 +87,7 @@ pub use estimate::{MeanOverPeople, SizePoint, exponent, intercept_px, line, line
 pub use export::{Export, ExportedSession, Status};
 pub use fit_figure::{FIT_FIGURE, fit_figure};
 pub use fit_outputs::{RELATION, fit_study};
+pub use goodness_of_fit::{BAND_ENDS, Band, GoodnessOfFit};
 pub use load::{LoadedSession, session_directories};
 pub use maximum_likelihood::{
     Count, Fitted, LAPSE_LARGEST, LIKELIHOOD_DROP_95, Model, Parameter, SLOPE_RANGE, deviance_residuals, fit,

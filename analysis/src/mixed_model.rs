@@ -24,6 +24,7 @@
 
 mod fit;
 mod interval;
+mod one_step;
 mod person;
 mod profile;
 
@@ -62,6 +63,21 @@ pub struct MixedParameters {
     pub slope: f64,
     /// Share of trials answered blindly.
     pub blind_share: f64,
+}
+
+impl MixedParameters {
+    /// Probability that an artifact is detected, blind trials included, this far above the person's threshold in log10 of
+    /// the intensity.
+    pub fn detection(&self, decades: f64) -> f64 {
+        let seeing = 1.0 - self.blind_share;
+        let w0 = -(-DETECTION_AT_THRESHOLD / seeing).ln_1p();
+        -seeing * (-w0 * 10_f64.powf(self.slope * decades)).exp_m1()
+    }
+
+    /// A person's threshold, log10 of the ratio: the mean of what is probable after everyone's answers.
+    pub(crate) fn threshold_of(&self, answers: &PersonAnswers) -> f64 {
+        self.log10_ratio + self.between_sd * person::marginal(answers, self).z
+    }
 }
 
 /// One person's answers in the model.
@@ -125,20 +141,8 @@ impl MixedFit {
     /// the mean of what is probable after everyone's answers, drawn to the median where the person's own say little.
     pub fn thresholds(&self) -> impl Iterator<Item = (&PersonAnswers, f64)> {
         let parameters = self.parameters();
-        let of = move |answers| {
-            let z = person::marginal(answers, &parameters).z;
-            (answers, parameters.log10_ratio + parameters.between_sd * z)
-        };
+        let of = move |answers| (answers, parameters.threshold_of(answers));
         self.model.people.iter().map(of)
-    }
-
-    /// Probability that an artifact is detected, blind trials included, this far above the person's threshold in log10 of
-    /// the intensity.
-    pub fn detection(&self, decades: f64) -> f64 {
-        let MixedParameters { slope, blind_share, .. } = self.parameters();
-        let seeing = 1.0 - blind_share;
-        let w0 = -(-DETECTION_AT_THRESHOLD / seeing).ln_1p();
-        -seeing * (-w0 * 10_f64.powf(slope * decades)).exp_m1()
     }
 
     /// A quantity with its 95 % interval.

@@ -85,8 +85,8 @@ pub(crate) fn refits(
     (0..resampling.resamples).into_par_iter().map(refit).collect()
 }
 
-/// Uniform numbers in 0..1, multiples of 2^-53, of a table: ChaCha with 8 rounds, its key the seed and its stream the table.
-fn draws(seed: u64, table: u32) -> impl FnMut() -> f64 {
+/// Uniform numbers in 0..1, multiples of 2^-53, of a table or cohort: ChaCha with 8 rounds, its key the seed and its stream the table.
+pub(crate) fn draws(seed: u64, table: u32) -> impl FnMut() -> f64 {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
     let mut generator = ChaCha8Rng::from_seed(key);

@@ -127,9 +127,10 @@ fn draw_panel(panel: &Area<'_>, series: &Series) -> Result<(), DrawError> {
         .label_style(text(14, INK))
         .axis_desc_style(text(15, INK))
         .draw()?;
+    let fitted = series.fit.parameters();
     let curve = (0..=120).map(|step| {
         let relative = left * (right / left).powf(f64::from(step) / 120.0);
-        (relative, series.fit.detection(-relative.log10()))
+        (relative, fitted.detection(-relative.log10()))
     });
     chart.draw_series(LineSeries::new(curve, color.stroke_width(2)))?;
     for Group { relative, detected, standard_error } in groups(series) {
@@ -138,7 +139,7 @@ fn draw_panel(panel: &Area<'_>, series: &Series) -> Result<(), DrawError> {
         chart.draw_series([PathElement::new([end(-1.0), end(1.0)], INK.stroke_width(1))])?;
         chart.draw_series([Circle::new((x, detected.clamp(-0.2, 1.1)), 4, INK.filled())])?;
     }
-    let threshold = (1.0, series.fit.detection(0.0));
+    let threshold = (1.0, fitted.detection(0.0));
     chart.draw_series([Circle::new(threshold, 7, color.stroke_width(2))])?;
     Ok(())
 }

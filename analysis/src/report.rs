@@ -1,6 +1,7 @@
 //! `report.html`: what the study found, for a reader who was not there. One file without references to
 //! others.
 
+mod goodness;
 mod method;
 mod people;
 mod relation;
@@ -70,6 +71,7 @@ pub fn report_html(study: &Study, analysis: &Analysis, figures: &Figures) -> Str
         relation::conditions(analysis),
         relation::form(worst),
         figures.residuals.clone(),
+        goodness::goodness(analysis),
         relation::effects(analysis),
         viewers::population(analysis),
         figures.population.clone(),
@@ -107,13 +109,14 @@ fn result(study: &Study, analysis: &Analysis) -> String {
          map, until the texels under a shadow's edge are hidden?</p>\n{simulated}<div \
          class=\"result\"><b>{:.2} texels</b>95 % interval {low:.2} to {high:.2}. The median \
          person's threshold in the worst condition, <strong>{}</strong>: {}; {} {who} of {}, \
-         {} trials.</div>\n",
+         {} trials.</div>\n{}",
         worst.ratio(),
         worst.name,
         threshold_in_words(),
         worst.fit.people(),
         study.people.len(),
         study.trial_count(),
+        goodness::warning(analysis),
     )
 }
 

@@ -169,11 +169,18 @@ pub(crate) fn answers_of(round: Round, person: &Person, protocol: &Protocol) -> 
     let here = || person.tracks.iter().filter(|track| round_of(&track.condition) == round).flat_map(Track::responses);
     here().next()?;
     let guess = Assumptions::of_person(person, protocol).guess;
-    let catches = protocol.catch_trials.iter().flat_map(|rules| {
-        let Checks { catches, catches_seen, .. } = person.checks;
-        (0..catches).map(move |trial| (-rules.ratio.log10(), trial < catches_seen))
-    });
-    Some(PersonAnswers::new(guess, here().chain(catches)))
+    Some(PersonAnswers::new(guess, here().chain(catch_answers(person, protocol))))
+}
+
+/// A person's answers to catch trials.
+pub(crate) fn catch_answers(person: &Person, protocol: &Protocol) -> impl Iterator<Item = (f64, bool)> {
+    let Checks { catches, catches_seen, .. } = person.checks;
+    catch_intensity(protocol).into_iter().flat_map(move |x| (0..catches).map(move |trial| (x, trial < catches_seen)))
+}
+
+/// Intensity of the protocol's catch trials; `None` without any.
+pub(crate) fn catch_intensity(protocol: &Protocol) -> Option<f64> {
+    protocol.catch_trials.map(|rules| -rules.ratio.log10())
 }
 
 fn person_in_series(

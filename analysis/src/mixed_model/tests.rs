@@ -109,7 +109,10 @@ fn people_measured_without_error_give_their_mean_and_students_interval() {
     for ((_, found), expected) in fit.thresholds().zip(thresholds) {
         assert!((found - expected).abs() < 1e-3, "{found} is not {expected}");
     }
-    assert!((fit.detection(0.0) - DETECTION_AT_THRESHOLD).abs() < 1e-12, "that is what the threshold stands for");
+    assert!(
+        (fit.parameters().detection(0.0) - DETECTION_AT_THRESHOLD).abs() < 1e-12,
+        "that is what the threshold stands for"
+    );
     assert!((fit.parameters().slope - 3.5).abs() < 0.02 && (fit.parameters().blind_share - 0.01).abs() < 0.002);
 }
 

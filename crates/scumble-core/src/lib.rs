@@ -69,7 +69,7 @@ pub use light::Light;
 pub use policy::{Demand, Size, TexelPolicy, size_achieved};
 pub use relation::{RATIO_MAX, ROUNDING_SLACK, Relation, whole_texels};
 pub use relation_file::{
-    ConditionEstimate, Estimate, FormTests, ModelParameters, NullTest, OtherEstimator, PopulationPoint, RelationFile,
-    SCHEMA, SessionHash,
+    ConditionEstimate, Estimate, FormTests, GoodnessOfFit, ModelParameters, NullTest, OtherEstimator, PopulationPoint,
+    RelationFile, SCHEMA, SessionHash,
 };
 pub use settings::{Filter, Settings, pixel_footprint_world};

@@ -129,6 +129,26 @@ pub struct ConditionEstimate {
     pub kernel: Option<String>,
     /// Filter radius in texels.
     pub ratio: Estimate,
+    /// Whether the model that the ratio comes from fits the answers, where that was tested.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub goodness_of_fit: Option<GoodnessOfFit>,
+}
+
+/// A test of the model against the answers of a condition, by simulated cohorts that obey the model.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GoodnessOfFit {
+    /// Pearson's sum of squared differences over people and bands of detectability.
+    pub chi_square: f64,
+    /// Its mean over the cohorts.
+    pub expected: f64,
+    /// Share of cohorts, the data among them, with as large a sum: below 0.05 the model is doubtful.
+    pub p_value: f64,
+    /// Right answers, less expected ones, in late less early halves of the staircases, in standard deviations.
+    pub drift: f64,
+    /// Share of cohorts, the data among them, with as large a drift either way: below 0.05 people learn or tire.
+    pub drift_p_value: f64,
+    /// Number of cohorts.
+    pub cohorts: u64,
 }
 
 /// A session by its content.
