@@ -1,4 +1,4 @@
-//! How long the kernel truth of a picture takes: every pixel of a scene's own view, for each filter.
+//! How long the truths of a picture take: every pixel of a scene's own view, for each filter and for the light itself.
 //!
 //! `cargo run --release -p scumble-reference --example time_truth -- SCENE [WIDTH HEIGHT]`
 
@@ -6,8 +6,11 @@ use anyhow::Context;
 use glam::DVec2;
 use rayon::prelude::*;
 use scumble_core::{Filter, fit};
-use scumble_reference::{KernelTruth, Rays, Receiver};
+use scumble_reference::{KernelTruth, LightTruth, Rays, Receiver};
 use std::time::Instant;
+
+/// Rays to the light from each receiver, as many as `scumble-viewer truth` sends by default.
+const LIGHT_SAMPLES: u32 = 256;
 
 fn main() -> anyhow::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -53,5 +56,11 @@ fn main() -> anyhow::Result<()> {
         );
     }
 
+    let samples = LIGHT_SAMPLES;
+    let started = Instant::now();
+    let estimates = LightTruth::new(&rays, &scene.light, samples)?.visibility(&receivers, |_| ());
+    let elapsed_secs = started.elapsed().as_secs_f64();
+    let largest = estimates.iter().map(|estimate| estimate.standard_error).fold(0.0, f32::max);
+    println!("light: {samples} samples each in {elapsed_secs:.1} s, standard error at most {largest:.3}");
     Ok(())
 }

@@ -59,8 +59,8 @@ pub struct Hit {
 }
 
 impl Rays {
-    /// Builds the hierarchy: about a quarter of a second for 100,000 triangles. What is no surface is left out and told
-    /// by [`Rays::skipped`].
+    /// Builds the hierarchy: about 0.1 s for 100,000 triangles, 2.3 s and 0.4 GB of memory for a million, 40 s and 4.1 GB
+    /// for ten million (`examples/time_hierarchy.rs`). What is no surface is left out and told by [`Rays::skipped`].
     pub fn new(scene: &Scene) -> Self {
         let (mut triangles, skipped) = triangles_of(scene);
         let extremes = (DVec3::INFINITY, DVec3::NEG_INFINITY);
