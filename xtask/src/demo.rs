@@ -23,7 +23,7 @@ pub fn folder() -> PathBuf {
 
 /// Runs the whole chain into `target/demo` and prints what came out of it.
 pub fn run(quick: bool) -> Result<Summary> {
-    packages::provide(&[packages::VULKAN])?;
+    packages::provide(&[packages::COMPILER, packages::VULKAN])?;
     build()?;
     let started = Instant::now();
     let folder = folder();

@@ -47,7 +47,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Demo { quick } => demo::run(quick).map(drop),
         Task::Test => test::run(),
-        Task::Setup => packages::provide(&[packages::VULKAN, packages::WINDOWS]),
+        Task::Setup => packages::provide(&[packages::COMPILER, packages::VULKAN, packages::WINDOWS]),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

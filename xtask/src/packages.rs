@@ -7,7 +7,7 @@ use crate::run;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
-/// Something the programs or tests need at run time.
+/// Something the programs or tests need to build or to run.
 #[derive(Clone, Copy)]
 pub struct Need {
     purpose: &'static str,
@@ -15,6 +15,10 @@ pub struct Need {
     /// Debian's and Ubuntu's package names.
     packages: &'static [&'static str],
 }
+
+/// A compiler of C++ under the name that Cargo's build scripts call.
+pub const COMPILER: Need =
+    Need { purpose: "a C++ compiler (build of the FLIP metric)", present: has_compiler, packages: &["g++"] };
 
 /// A Vulkan loader and a driver; llvmpipe where the machine has no graphics card.
 pub const VULKAN: Need = Need {
@@ -80,6 +84,10 @@ fn install(packages: &[&str]) -> Result<()> {
     let install = [prefix, &["install", "-y", "--no-install-recommends"], &quiet, packages].concat();
     run::visibly(program, &update)?;
     run::visibly(program, &install)
+}
+
+fn has_compiler() -> bool {
+    std::env::var_os("CXX").is_some() || on_path("c++")
 }
 
 fn has_vulkan() -> bool {

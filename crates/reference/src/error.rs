@@ -72,6 +72,14 @@ pub enum Error {
         /// Texel of the map there.
         texel: f32,
     },
+    /// A viewing condition of no screen.
+    #[error("{found} pixels per degree of vision: allowed are {} to {}", allowed.start(), allowed.end())]
+    PixelsPerDegree {
+        /// The number given.
+        found: f64,
+        /// The numbers that are taken.
+        allowed: std::ops::RangeInclusive<f64>,
+    },
     /// A number of rays that does not cut the light into equal areas.
     #[error("{found} samples of the light: allowed are {:?}", LightTruth::SAMPLES)]
     Samples {

@@ -11,6 +11,7 @@
 //!   picture.
 //! * [`edge_displacement`]: how far a shadow's edge is from where it should be, in pixels.
 //! * [`edge_tilt`]: how far it turns away from the true edge, against what observers see.
+//! * [`flip`](flip()): how different two pictures look on a screen.
 //! * [`error_parts`]: what part of an error is noise. [`violation_share`]: where a filter is too narrow for its texel.
 //! * [`pop`](pop()) and [`shimmer`](shimmer()): what changes when the map's size does, and when the camera creeps.
 //!
@@ -28,12 +29,14 @@ mod edge_displacement;
 mod edge_tilt;
 mod error;
 mod error_map;
+mod flip;
 mod hierarchy;
 mod kernel_truth;
 mod light_samples;
 mod light_truth;
 mod metrics;
 mod noise;
+mod percentile;
 mod pop;
 mod rays;
 mod shimmer;
@@ -50,6 +53,7 @@ pub use edge_displacement::{EdgeDisplacement, edge_displacement};
 pub use edge_tilt::{EdgeTilt, HIDDEN_TILT_DEG, edge_tilt};
 pub use error::Error;
 pub use error_map::error_map;
+pub use flip::{FLIP_PIXELS_PER_DEGREE, Flip, flip};
 pub use kernel_truth::{KernelTruth, Receiver};
 pub use light_truth::{Estimate, LightTruth};
 pub use metrics::{Differences, differences, penumbra};

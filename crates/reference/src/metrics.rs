@@ -7,6 +7,7 @@
 //! ```
 //! A value that is not finite is an error, not a difference: a NaN would vanish from a maximum.
 
+use crate::percentile::p99;
 use crate::{Error, check};
 
 /// Differences of visibility, in shares of full light.
@@ -52,12 +53,10 @@ fn summary(signed: &[f64]) -> Differences {
     let count = signed.len() as f64;
     let mut sizes: Vec<f64> = signed.iter().map(|error| error.abs()).collect();
     sizes.sort_by(f64::total_cmp);
-    // In integers, because 0.99 * 100 is above 99 in floating point.
-    let rank = (99 * sizes.len()).div_ceil(100);
     Differences {
         pixels: signed.len(),
         max: sizes[sizes.len() - 1],
-        p99: sizes[rank - 1],
+        p99: p99(&sizes).unwrap_or(0.0),
         rms: (signed.iter().map(|error| error * error).sum::<f64>() / count).sqrt(),
         bias: signed.iter().sum::<f64>() / count,
     }

@@ -9,6 +9,7 @@
 //! Time*, section 3.2.1).
 
 use crate::Error;
+use crate::percentile::p99;
 
 /// Standard deviations over frames, in shares of full light.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -38,12 +39,10 @@ pub fn shimmer(points: &[Vec<f32>]) -> Result<Shimmer, Error> {
     }
     variances.sort_by(f64::total_cmp);
     let Some(largest) = variances.last() else { return Ok(Shimmer { points: 0, rms: 0.0, p99: 0.0, max: 0.0 }) };
-    // In integers, because 0.99 * 100 is above 99 in floating point.
-    let rank = (99 * variances.len()).div_ceil(100);
     Ok(Shimmer {
         points: variances.len(),
         rms: (variances.iter().sum::<f64>() / variances.len() as f64).sqrt(),
-        p99: variances[rank - 1].sqrt(),
+        p99: p99(&variances).unwrap_or(0.0).sqrt(),
         max: largest.sqrt(),
     })
 }
