@@ -51,10 +51,11 @@ impl Analysis {
     ///
     /// # Errors
     /// The reason why the data carry no fit: fewer than two people with thresholds in every pattern
-    /// and contrast, or no condition in which the experiment converged.
+    /// and contrast, no condition in which the experiment converged, or one texel size alone.
     pub fn of(study: &Study) -> Result<Self, Error> {
         let protocol = &study.protocol;
         check_converged(study)?;
+        check_sizes(study)?;
         let (mut series, mut exclusions) = (Vec::new(), Vec::new());
         let mut refusal = None;
         for round in protocol.rounds() {
@@ -198,8 +199,23 @@ fn check_converged(study: &Study) -> Result<(), Error> {
     )))
 }
 
+/// Refuses answers at one texel size, which tell nothing of how the radius grows with the texel.
+fn check_sizes(study: &Study) -> Result<(), Error> {
+    let answered =
+        study.people.iter().flat_map(|person| &person.tracks).filter(|track| track.responses().next().is_some());
+    let mut sizes_px: Vec<f64> = answered.map(|track| track.condition.texel_px).collect();
+    sizes_px.sort_by(f64::total_cmp);
+    sizes_px.dedup();
+    match sizes_px[..] {
+        [only_px] => Err(Error::CannotFit(format!(
+            "all answers are at a texel of {only_px} px; that the radius grows with the texel needs at least 2 sizes"
+        ))),
+        _ => Ok(()),
+    }
+}
+
 /// A sentence for every condition without a threshold.
-fn left_out(thresholds: &[ConditionThreshold], protocol: &Protocol) -> Vec<String> {
+pub(crate) fn left_out(thresholds: &[ConditionThreshold], protocol: &Protocol) -> Vec<String> {
     thresholds
         .iter()
         .filter_map(|entry| {

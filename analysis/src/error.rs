@@ -113,6 +113,16 @@ pub enum Error {
     /// The data are readable and do not carry the fit.
     #[error("the data cannot carry a fit: {0}")]
     CannotFit(String),
+    /// The data do not carry a relation, and what they do carry was written.
+    #[error("the data cannot carry a fit: {reason}; {next}; {} has what they carry, and no relation", report.display())]
+    Pilot {
+        /// Why there is no relation.
+        reason: String,
+        /// What to do next.
+        next: &'static str,
+        /// The report.
+        report: PathBuf,
+    },
     /// There is no session to make a dataset of.
     #[error("nothing to export: {0}")]
     CannotExport(String),

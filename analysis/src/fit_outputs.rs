@@ -12,6 +12,7 @@ use crate::{
     fit_figure::FIT_FIGURE,
     outputs::{Output, write_outputs},
     people::Study,
+    pilot::write_pilot,
     population_figure::POPULATION_FIGURE,
     psychometric_figure::PSYCHOMETRIC_FIGURE,
     report::{Figures, REPORT, REPORT_MARK, report_html},
@@ -28,14 +29,17 @@ pub const RELATION: &str = "relation.json";
 /// are replaced, other files are not.
 ///
 /// # Errors
-/// Data that carry no fit (nothing is written then), a file in the way, or a relation that a
-/// renderer would refuse to read.
+/// [`Error::Pilot`] of data that carry no relation, after what they do carry was written; a file in the way; a
+/// relation that a renderer would refuse to read.
 pub fn fit_study(study: &Study, folder: &Path) -> Result<Analysis, Error> {
     if folder.join(HEADER_FILE).exists() {
         let reason = "is a session; allowed is a folder for results".to_owned();
         return Err(Error::File { path: folder.to_path_buf(), reason });
     }
-    let analysis = Analysis::of(study)?;
+    let analysis = match Analysis::of(study) {
+        Err(Error::CannotFit(reason)) => return Err(write_pilot(study, reason, folder)?),
+        other => other?,
+    };
     let relation = analysis.relation_file(study)?.to_json()? + "\n";
     let figures = Figures::of(study, &analysis)?;
     let report = report_html(study, &analysis, &figures);

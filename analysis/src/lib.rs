@@ -53,6 +53,7 @@ mod outputs;
 mod panels;
 mod parametric_bootstrap;
 mod people;
+mod pilot;
 mod plan;
 mod plan_text;
 mod population;

@@ -43,7 +43,8 @@ figures as SVG.
 Running it again replaces these files; a file of another kind under one of the names is refused.
 
 The largest ratio under the protocol's first kernel goes into relation.json: a ratio holds for one kernel.
-At least two people are needed. Lines alone and catch trials check the people; thresholds do not use them.")]
+At least two people and two texel sizes are needed; of a pilot with less, report.html and the tables are
+written without a relation, and the exit status is 1. Lines alone and catch trials check the people; thresholds do not use them.")]
     Fit {
         /// A session, or a folder with sessions directly in it.
         #[arg(required = true, value_name = "DIR")]

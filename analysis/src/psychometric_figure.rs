@@ -5,11 +5,13 @@
 //! with the binomial standard error. Guessing is taken out per person: `(share right - g) / (1 - g)`.
 
 use plotters::prelude::*;
+use scumble_stimuli::Pattern;
 
 use crate::{
     Error,
     analysis::Analysis,
     figure::{DrawError, GREY, GRID, INK, pattern_color, svg, text},
+    mixed_model::{MixedParameters, PersonAnswers},
     panels::{Area, draw_foot, page_px, split},
     series::Series,
 };
@@ -23,20 +25,54 @@ const GROUPS: usize = 12;
 /// Ends of the axis: ratios relative to the threshold.
 const RELATIVE: [f64; 2] = [0.4, 2.5];
 
-/// Draws the figure as SVG.
+/// What a panel shows.
+pub(crate) struct Panel {
+    /// Its caption.
+    pub name: String,
+    /// Pattern whose colour the function has.
+    pub pattern: Pattern,
+    /// Everyone's function.
+    pub shared: MixedParameters,
+    /// Answers and log10 threshold of each person.
+    pub people: Vec<(PersonAnswers, f64)>,
+}
+
+impl Panel {
+    fn of(series: &Series) -> Self {
+        Self {
+            name: series.name.clone(),
+            pattern: series.round.pattern,
+            shared: series.fit.parameters(),
+            people: series.fit.thresholds().map(|(answers, threshold)| (answers.clone(), threshold)).collect(),
+        }
+    }
+}
+
+/// Draws the figure of an analysis as SVG.
 ///
 /// # Errors
 /// Only the plotting library's own.
 pub fn psychometric_figure(analysis: &Analysis) -> Result<String, Error> {
-    let count = analysis.series.len();
+    let panels: Vec<Panel> = analysis.series.iter().map(Panel::of).collect();
+    draw(&panels, "everyone's slope")
+}
+
+/// Draws panels as SVG; `slope` says whose slope the functions have.
+///
+/// # Errors
+/// Only the plotting library's own.
+pub(crate) fn draw(shown: &[Panel], slope: &str) -> Result<String, Error> {
+    let count = shown.len();
     svg(PSYCHOMETRIC_FIGURE, "Psychometric functions", page_px(count), |page| {
         let (panels, foot) = split(page, count);
-        for (panel, series) in panels.iter().zip(&analysis.series) {
-            draw_panel(panel, series)?;
+        for (panel, shown) in panels.iter().zip(shown) {
+            draw_panel(panel, shown)?;
         }
         let lines = [
-            "line: Weibull function with everyone's slope · dots: answers in groups of equal number, guesses taken out, one \
-             standard error",
+            &format!(
+                "line: Weibull function with {slope} · dots: answers in groups of equal number, guesses taken out, one \
+                 standard error"
+            ),
             "ring: threshold, where the artifact is seen on 64 % of the trials",
         ];
         draw_foot(&foot, &lines)
@@ -64,10 +100,10 @@ struct Answers {
     total: f64,
 }
 
-/// The groups of a series, by falling ratio.
-pub(crate) fn groups(series: &Series) -> Vec<Group> {
+/// The groups of a panel, by falling ratio.
+fn groups(panel: &Panel) -> Vec<Group> {
     let mut all: Vec<Answers> = Vec::new();
-    for (person, threshold) in series.fit.thresholds() {
+    for (person, threshold) in &panel.people {
         let guess = person.guess();
         let counts = person.counts().iter();
         all.extend(counts.map(|c| Answers { x: c.x + threshold, guess, right: c.correct, total: c.total }));
@@ -101,12 +137,12 @@ impl Group {
     }
 }
 
-fn draw_panel(panel: &Area<'_>, series: &Series) -> Result<(), DrawError> {
-    let color = pattern_color(series.round.pattern);
+fn draw_panel(panel: &Area<'_>, shown: &Panel) -> Result<(), DrawError> {
+    let color = pattern_color(shown.pattern);
     let [left, right] = RELATIVE;
     let mut chart = ChartBuilder::on(panel)
         .margin(12)
-        .caption(&series.name, text(17, INK))
+        .caption(&shown.name, text(17, INK))
         .x_label_area_size(42)
         .y_label_area_size(56)
         .build_cartesian_2d(
@@ -127,19 +163,18 @@ fn draw_panel(panel: &Area<'_>, series: &Series) -> Result<(), DrawError> {
         .label_style(text(14, INK))
         .axis_desc_style(text(15, INK))
         .draw()?;
-    let fitted = series.fit.parameters();
     let curve = (0..=120).map(|step| {
         let relative = left * (right / left).powf(f64::from(step) / 120.0);
-        (relative, fitted.detection(-relative.log10()))
+        (relative, shown.shared.detection(-relative.log10()))
     });
     chart.draw_series(LineSeries::new(curve, color.stroke_width(2)))?;
-    for Group { relative, detected, standard_error } in groups(series) {
+    for Group { relative, detected, standard_error } in groups(shown) {
         let x = relative.clamp(left, right);
         let end = |sign: f64| (x, (detected + sign * standard_error).clamp(-0.2, 1.1));
         chart.draw_series([PathElement::new([end(-1.0), end(1.0)], INK.stroke_width(1))])?;
         chart.draw_series([Circle::new((x, detected.clamp(-0.2, 1.1)), 4, INK.filled())])?;
     }
-    let threshold = (1.0, fitted.detection(0.0));
+    let threshold = (1.0, shown.shared.detection(0.0));
     chart.draw_series([Circle::new(threshold, 7, color.stroke_width(2))])?;
     Ok(())
 }

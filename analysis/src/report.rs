@@ -4,13 +4,21 @@
 mod goodness;
 mod method;
 mod people;
+pub(crate) mod pilot;
 mod relation;
 mod viewers;
 
 use crate::{
-    Error, analysis::Analysis, assumptions::DETECTION_AT_THRESHOLD, fit_figure::fit_figure, people::Study,
-    population_figure::population_figure, psychometric_figure::psychometric_figure, residual_figure::residual_figure,
-    staircase_figure::staircase_figure, thresholds::ConditionThreshold,
+    Error,
+    analysis::Analysis,
+    assumptions::DETECTION_AT_THRESHOLD,
+    fit_figure::fit_figure,
+    people::{Person, Study},
+    population_figure::population_figure,
+    psychometric_figure::psychometric_figure,
+    residual_figure::residual_figure,
+    staircase_figure::staircase_figure,
+    thresholds::ConditionThreshold,
 };
 
 /// File name of the report.
@@ -20,6 +28,9 @@ pub const REPORT_MARK: &str = "<meta name=\"generator\" content=\"scumble-analys
 
 /// Head and style of the page.
 const HEAD: &str = include_str!("report.html");
+
+/// What the study asks.
+const QUESTION: &str = "How large must a filter's radius be, in texels of the shadow map, until the texels under a shadow's edge are hidden?";
 
 /// Most people whose tracks are drawn: the page stays one that a browser opens at once.
 const DRAWN_MOST: usize = 40;
@@ -45,19 +56,23 @@ impl Figures {
     /// # Errors
     /// Only the plotting library's own.
     pub fn of(study: &Study, analysis: &Analysis) -> Result<Self, Error> {
-        let staircases = study.people.iter().take(DRAWN_MOST).map(|person| {
-            let own: Vec<ConditionThreshold> =
-                analysis.thresholds.iter().filter(|entry| entry.person == person.code).cloned().collect();
-            Ok((person.code.clone(), staircase_figure(person, &study.protocol, &own)?))
-        });
         Ok(Self {
             fit: fit_figure(analysis)?,
             psychometric: psychometric_figure(analysis)?,
             residuals: residual_figure(analysis)?,
             population: population_figure(analysis)?,
-            staircases: staircases.collect::<Result<_, Error>>()?,
+            staircases: staircases(study, &analysis.thresholds)?,
         })
     }
+}
+
+/// Code and tracks of the first people.
+pub(crate) fn staircases(study: &Study, thresholds: &[ConditionThreshold]) -> Result<Vec<(String, String)>, Error> {
+    let of_person = |person: &Person| {
+        let own: Vec<_> = thresholds.iter().filter(|entry| entry.person == person.code).cloned().collect();
+        Ok((person.code.clone(), staircase_figure(person, &study.protocol, &own)?))
+    };
+    study.people.iter().take(DRAWN_MOST).map(of_person).collect()
 }
 
 /// The whole page.
@@ -81,7 +96,7 @@ pub fn report_html(study: &Study, analysis: &Analysis, figures: &Figures) -> Str
         people::detection(study),
         people::tracks(study, &figures.staircases),
         relation::under_priors(analysis),
-        method::left_out(study, analysis),
+        method::left_out(study, &analysis.exclusions),
         method::method(study, analysis),
         method::sources(study),
         "</body>\n</html>\n".to_owned(),
@@ -97,16 +112,9 @@ fn result(study: &Study, analysis: &Analysis) -> String {
     let truth = study.true_ratio(worst.round).map_or(String::new(), |ratio| {
         format!(" The geometric mean of these people's true thresholds in the worst condition is {ratio:.2} texels.")
     });
-    let simulated = match study.is_simulated() {
-        true => format!(
-            "<p class=\"notice\">Every answer comes from a <strong>simulated</strong> observer. \
-             This page shows that the method works, not what people see.{truth}</p>\n"
-        ),
-        false => String::new(),
-    };
+    let simulated = simulated(study, &truth);
     format!(
-        "<h1>Radius to texel</h1>\n<p>How large must a filter's radius be, in texels of the shadow \
-         map, until the texels under a shadow's edge are hidden?</p>\n{simulated}<div \
+        "<h1>Radius to texel</h1>\n<p>{QUESTION}</p>\n{simulated}<div \
          class=\"result\"><b>{:.2} texels</b>95 % interval {low:.2} to {high:.2}. The median \
          person's threshold in the worst condition, <strong>{}</strong>: {}; {} {who} of {}, \
          {} trials.</div>\n{}",
@@ -118,6 +126,17 @@ fn result(study: &Study, analysis: &Analysis) -> String {
         study.trial_count(),
         goodness::warning(analysis),
     )
+}
+
+/// A notice where the answers are those of simulated observers; nothing elsewhere.
+fn simulated(study: &Study, truth: &str) -> String {
+    match study.is_simulated() {
+        true => format!(
+            "<p class=\"notice\">Every answer comes from a <strong>simulated</strong> observer. \
+             This page shows that the method works, not what people see.{truth}</p>\n"
+        ),
+        false => String::new(),
+    }
 }
 
 /// What the threshold stands for, in terms of any task.

@@ -42,6 +42,66 @@ fn simulate_and_fit_make_a_relation() {
     assert_eq!(String::from_utf8(again.stderr).unwrap().lines().count(), 1);
 }
 
+/// Sessions of a protocol whose texel sizes are changed, and what their fit says.
+fn fit_of_pilot(folder: &Path, observers: &str, texels_px: &str) -> (Output, PathBuf) {
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/psychophysics/protocols/two-alternative.toml");
+    let shipped = fs::read_to_string(shipped).unwrap();
+    let changed = shipped.replace("texels_px = [5.0, 10.0, 20.0]", &format!("texels_px = {texels_px}"));
+    let protocol = folder.join("pilot.toml");
+    fs::write(&protocol, changed).unwrap();
+    let (sessions, out) = (folder.join("sessions"), folder.join("fit"));
+    let simulate = ["simulate", "--out", path(&sessions), "--observers", observers, "--seed", "2"];
+    assert!(program(&[&simulate[..], &["--protocol", path(&protocol)]].concat()).status.success());
+    (program(&["fit", path(&sessions), "--out", path(&out)]), out)
+}
+
+#[test]
+fn a_pilot_is_refused_a_relation_is_told_what_to_do_next_and_gets_what_its_data_carry() {
+    let cases = [
+        ("1", "[5.0, 10.0, 20.0]", "at least 2 people with answers, found 1", "run the study with more people"),
+        ("3", "[10.0]", "all answers are at a texel of 10 px", "two or more sizes in conditions.texels_px"),
+    ];
+    for (observers, texels_px, reason, next) in cases {
+        let folder = tempfile::tempdir().unwrap();
+        let (fit, out) = fit_of_pilot(folder.path(), observers, texels_px);
+        assert_eq!(fit.status.code(), Some(1), "{fit:?}");
+        let message = String::from_utf8(fit.stderr).unwrap();
+        let line = message.lines().find(|line| line.starts_with("error: ")).unwrap();
+        assert!(line.contains(reason) && line.contains(next) && line.contains("report.html"), "{line}");
+
+        let mut files: Vec<String> =
+            fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        files.sort();
+        let expected =
+            ["psychometric.svg", "report.html", "staircases.svg", "thresholds.csv", "trials.csv", "trials.json"];
+        assert_eq!(files, expected);
+        let page = fs::read_to_string(out.join("report.html")).unwrap();
+        let (first_screen, rest) = page.split_once("<h2>").unwrap();
+        assert!(first_screen.contains("No relation") && first_screen.contains(reason) && first_screen.contains(next));
+        assert!(rest.contains("sim-0001") && rest.contains("Psychometric functions") && rest.contains("Tracks"));
+        assert!(!page.contains("NaN"));
+        let thresholds = fs::read_to_string(out.join("thresholds.csv")).unwrap();
+        let conditions = 4 * texels_px.matches('.').count();
+        assert_eq!(thresholds.lines().count(), 1 + conditions * observers.parse::<usize>().unwrap());
+        let trials = fs::read_to_string(out.join("trials.csv")).unwrap();
+        assert!(trials.lines().count() > 10 * conditions);
+    }
+}
+
+#[test]
+fn a_pilot_does_not_stand_beside_the_relation_of_an_earlier_fit() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, out) = fit_of_pilot(folder.path(), "1", "[5.0, 10.0, 20.0]");
+    fs::remove_dir_all(&out).unwrap();
+    fs::create_dir(&out).unwrap();
+    fs::write(out.join("relation.json"), "{}").unwrap();
+    let again = program(&["fit", path(&folder.path().join("sessions")), "--out", path(&out)]);
+    let message = String::from_utf8(again.stderr).unwrap();
+    assert_eq!(again.status.code(), Some(1));
+    assert!(message.contains("relation.json: is of an earlier fit") && message.contains("allowed is another --out"));
+    assert_eq!(fs::read_dir(&out).unwrap().count(), 1, "nothing is written beside it");
+}
+
 #[test]
 fn export_prints_a_line_a_session_and_replaces_nothing() {
     let folder = tempfile::tempdir().unwrap();

@@ -58,8 +58,8 @@ pub(super) fn in_words(study: &Study, analysis: &Analysis) -> String {
     )
 }
 
-pub(super) fn left_out(study: &Study, analysis: &Analysis) -> String {
-    let sentences: Vec<&String> = study.notices.iter().chain(&analysis.exclusions).collect();
+pub(super) fn left_out(study: &Study, exclusions: &[String]) -> String {
+    let sentences: Vec<&String> = study.notices.iter().chain(exclusions).collect();
     if sentences.is_empty() {
         return "<h2>Left out</h2>\n<p>Nothing: every condition of every person has a \
                 threshold.</p>\n"
