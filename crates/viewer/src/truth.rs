@@ -109,12 +109,8 @@ fn in_blocks(
         .map(|first| Rows { first, count: ROWS_OF_BLOCK.min(height - first) })
         .collect();
     let kept: Vec<Option<Vec<Estimate>>> = blocks.iter().map(|&rows| read_or_warn(cache, rows)).collect();
-    let missing = |rows: &Rows| {
-        let pixels = (rows.first * width) as usize..((rows.first + rows.count) * width) as usize;
-        pixels.filter(|&pixel| surfaces[pixel].is_some()).count() as u64
-    };
-    let is_missing = |(rows, kept): (&Rows, &Option<Vec<Estimate>>)| kept.is_none().then(|| missing(rows));
-    let bar = progress(message, blocks.iter().zip(&kept).filter_map(is_missing).sum());
+    let missing = blocks.iter().zip(&kept).filter(|(_, kept)| kept.is_none());
+    let bar = progress(message, missing.map(|(rows, _)| seen(&surfaces[rows.pixels(width)])).sum());
 
     let mut rows_kept = 0;
     let mut estimates = Vec::with_capacity(surfaces.len());
@@ -140,6 +136,7 @@ fn read_or_warn(cache: &Cache, rows: Rows) -> Option<Vec<Estimate>> {
     })
 }
 
+/// Estimates of some rows of a picture `width` wide.
 fn of_rows(
     source: &Source,
     surfaces: &[Option<Surface>],
@@ -147,16 +144,14 @@ fn of_rows(
     rows: Rows,
     progress: impl Fn(usize) + Sync,
 ) -> Vec<Estimate> {
-    let first = (rows.first * width) as usize;
-    let block = &surfaces[first..first + (rows.count * width) as usize];
-    let mut estimates = vec![Estimate { visibility: 1.0, standard_error: 0.0 }; block.len()];
-    let (seen, receivers): (Vec<usize>, Vec<Receiver>) = block
-        .iter()
-        .enumerate()
-        .filter_map(|(index, surface)| Some((index, receiver(surface.as_ref()?, first + index, width))))
+    let pixels = rows.pixels(width);
+    let mut estimates = vec![Estimate { visibility: 1.0, standard_error: 0.0 }; pixels.len()];
+    let (places, receivers): (Vec<usize>, Vec<Receiver>) = pixels
+        .clone()
+        .filter_map(|pixel| Some((pixel - pixels.start, receiver(surfaces[pixel].as_ref()?, pixel, width))))
         .unzip();
-    for (index, estimate) in seen.into_iter().zip(source.estimates(&receivers, progress)) {
-        estimates[index] = estimate;
+    for (place, estimate) in places.into_iter().zip(source.estimates(&receivers, progress)) {
+        estimates[place] = estimate;
     }
     estimates
 }
@@ -171,20 +166,20 @@ pub fn true_visibility(
     surfaces: &[Option<Surface>],
     width_px: u32,
 ) -> Vec<f32> {
-    let mut visibility = vec![1.0; surfaces.len()];
-    let Some(view) = plan.views().first() else { return visibility };
-    let (seen, receivers): (Vec<usize>, Vec<Receiver>) = surfaces
-        .iter()
-        .enumerate()
-        .filter_map(|(index, surface)| Some((index, receiver(surface.as_ref()?, index, width_px))))
-        .unzip();
-    let bar = progress(message, receivers.len() as u64);
-    let of_receivers = KernelTruth::new(rays, &view.fit, *filter).visibility(&receivers, |done| bar.inc(done as u64));
+    let source = match plan.views().first() {
+        None => Source::Open,
+        Some(view) => Source::Kernel(KernelTruth::new(rays, &view.fit, *filter)),
+    };
+    let bar = progress(message, seen(surfaces));
+    let whole = Rows { first: 0, count: surfaces.len() as u32 / width_px };
+    let estimates = of_rows(&source, surfaces, width_px, whole, |done| bar.inc(done as u64));
     bar.finish_and_clear();
-    for (index, of_receiver) in seen.into_iter().zip(of_receivers) {
-        visibility[index] = of_receiver;
-    }
-    visibility
+    estimates.into_iter().map(|estimate| estimate.visibility).collect()
+}
+
+/// Pixels that show a surface.
+fn seen(surfaces: &[Option<Surface>]) -> u64 {
+    surfaces.iter().flatten().count() as u64
 }
 
 /// What is seen in the pixels of a picture that show a surface.

@@ -195,8 +195,8 @@ fn what_is_damaged_or_of_another_version_in_the_cache_is_named_and_computed_anew
 #[test]
 fn a_run_that_is_killed_goes_on_where_it_stopped() {
     let directory = tempfile::tempdir().unwrap();
-    let arguments = ["--truth", "light", "--samples", "1024"];
-    let small = Small { directory: directory.path(), height: 144, arguments: &arguments };
+    let arguments = ["--truth", "light", "--samples", "512"];
+    let small = Small { directory: directory.path(), height: 96, arguments: &arguments };
     let mut killed = small.command().stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let started = Instant::now();
     while small.blocks().len() < 2 {
@@ -207,7 +207,7 @@ fn a_run_that_is_killed_goes_on_where_it_stopped() {
     killed.kill().unwrap();
     killed.wait().unwrap();
     let kept = small.blocks().len() as u64;
-    assert!(kept < 144 / BLOCK && !small.out().exists(), "{kept} blocks");
+    assert!(kept < 96 / BLOCK && !small.out().exists(), "{kept} blocks");
 
     small.run();
     assert_eq!(small.record()["rows_from_cache"], kept * BLOCK);

@@ -10,6 +10,7 @@
 
 use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -41,6 +42,14 @@ pub struct Rows {
     pub first: u32,
     /// How many.
     pub count: u32,
+}
+
+impl Rows {
+    /// Indices of the pixels of these rows, `width_px` in each.
+    pub fn pixels(self, width_px: u32) -> Range<usize> {
+        let start = |row: u32| row as usize * width_px as usize;
+        start(self.first)..start(self.first + self.count)
+    }
 }
 
 impl Cache {
@@ -102,7 +111,7 @@ impl Cache {
                 false => "is no block of a truth".to_owned(),
             });
         };
-        let pixels = rows.count as usize * self.width_px as usize;
+        let pixels = rows.pixels(self.width_px).len();
         if body.len() != pixels * ESTIMATE + CHECKSUM {
             let expected = header.len() + pixels * ESTIMATE + CHECKSUM;
             return Err(format!("has {} bytes and not the {expected} of its rows", bytes.len()));
@@ -143,10 +152,7 @@ mod tests {
         cache.write(ROWS, &estimates()).unwrap();
         assert_eq!(cache.read(ROWS), Ok(Some(estimates())));
         assert_eq!(cache.read(Rows { first: 0, count: 2 }), Ok(None));
-        assert_eq!(
-            super::super::cache::Cache::open(directory.path(), Key::of_bytes(&[2]), 3).unwrap().read(ROWS),
-            Ok(None)
-        );
+        assert_eq!(Cache::open(directory.path(), Key::of_bytes(&[2]), 3).unwrap().read(ROWS), Ok(None));
         assert_eq!(fs::read_dir(cache.folder).unwrap().count(), 1, "nothing is left beside the block");
     }
 
