@@ -13,6 +13,9 @@ use glam::{DVec2, IVec2, dvec2, ivec2};
 /// Visibility at which an edge is drawn: the middle of every symmetric penumbra.
 const LEVEL: f64 = 0.5;
 
+/// Cells a side of the blocks in which a search passes over what is empty.
+const BLOCK: i32 = 8;
+
 /// A chord of the contour, within one cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Segment(DVec2, DVec2);
@@ -51,6 +54,10 @@ pub(crate) struct Contour {
     /// Cell `i` has the segments from `first[i]` to `first[i + 1]`.
     first: Vec<usize>,
     segments: Vec<Segment>,
+    /// Blocks across and down.
+    blocks: IVec2,
+    /// Per block: whether it has a chord, or a cell outside of the mask or the picture.
+    is_busy: Vec<bool>,
 }
 
 impl Contour {
@@ -58,7 +65,9 @@ impl Contour {
     pub(crate) fn of(picture: &[f32], mask: &[bool], width: usize) -> Self {
         let height = picture.len() / width;
         let cells = ivec2(width as i32 - 1, height.saturating_sub(1) as i32);
-        let mut contour = Self { cells, inside: Vec::new(), first: vec![0], segments: Vec::new() };
+        let blocks = (cells + BLOCK - 1) / BLOCK;
+        let (inside, first, segments, is_busy) = (Vec::new(), vec![0], Vec::new(), Vec::new());
+        let mut contour = Self { cells, inside, first, segments, blocks, is_busy };
         for y in 0..height.saturating_sub(1) {
             for x in 0..width - 1 {
                 let top = y * width + x;
@@ -72,6 +81,9 @@ impl Contour {
                 contour.first.push(contour.segments.len());
             }
         }
+        let has_something = |cell| contour.segments_in(cell).is_none_or(|segments| !segments.is_empty());
+        let blocks = (0..blocks.y).flat_map(|y| (0..blocks.x).map(move |x| ivec2(x, y)));
+        contour.is_busy = blocks.map(|block| square(block * BLOCK, BLOCK).any(has_something)).collect();
         contour
     }
 
@@ -88,23 +100,29 @@ impl Contour {
     /// The chord nearest to a point, and its distance; `None` where the border of the mask is nearer than any chord,
     /// because the contour may go on beyond.
     pub(crate) fn nearest(&self, point: DVec2) -> Option<(&Segment, f64)> {
-        let home = point.floor().as_ivec2();
+        let home = (point / f64::from(BLOCK)).floor().as_ivec2();
         let mut nearest: Option<(&Segment, f64)> = None;
         let mut border = f64::INFINITY;
         for ring in 0.. {
-            // A cell of this ring is at least `ring - 1` away. What lies outside of the picture is border: this ends.
-            if nearest.map_or(border, |(_, distance)| distance.min(border)) <= f64::from(ring) - 1.0 {
+            // A block of this ring is at least `ring - 1` blocks away. What is outside of the picture is border: this ends.
+            if nearest.map_or(border, |(_, distance)| distance.min(border)) <= f64::from((ring - 1) * BLOCK) {
                 break;
             }
-            for cell in ring_around(home, ring) {
-                let Some(segments) = self.segments_in(cell) else {
-                    border = border.min(point.distance(point.clamp(cell.as_dvec2(), cell.as_dvec2() + 1.0)));
+            for block in ring_around(home, ring).filter(|&block| self.is_busy(block)) {
+                let least = nearest.map_or(border, |(_, distance)| distance.min(border));
+                if distance_to_square(point, block * BLOCK, BLOCK) > least {
                     continue;
-                };
-                for segment in segments {
-                    let distance = segment.distance(point);
-                    if nearest.is_none_or(|(_, least)| distance < least) {
-                        nearest = Some((segment, distance));
+                }
+                for cell in square(block * BLOCK, BLOCK) {
+                    let Some(segments) = self.segments_in(cell) else {
+                        border = border.min(distance_to_square(point, cell, 1));
+                        continue;
+                    };
+                    for segment in segments {
+                        let distance = segment.distance(point);
+                        if nearest.is_none_or(|(_, least)| distance < least) {
+                            nearest = Some((segment, distance));
+                        }
                     }
                 }
             }
@@ -114,10 +132,30 @@ impl Contour {
 
     /// The chords of a cell; `None` outside of the mask.
     fn segments_in(&self, cell: IVec2) -> Option<&[Segment]> {
-        let is_in_picture = cell.cmpge(IVec2::ZERO).all() && cell.cmplt(self.cells).all();
-        let index = is_in_picture.then(|| cell.y as usize * self.cells.x as usize + cell.x as usize)?;
+        let index = index_in(self.cells, cell)?;
         self.inside[index].then(|| &self.segments[self.first[index]..self.first[index + 1]])
     }
+
+    /// Whether a block has a chord, or a cell that does not count.
+    fn is_busy(&self, block: IVec2) -> bool {
+        index_in(self.blocks, block).is_none_or(|index| self.is_busy[index])
+    }
+}
+
+/// Place of a cell in rows of `size.x`, `size.y` of them; `None` outside.
+fn index_in(size: IVec2, cell: IVec2) -> Option<usize> {
+    let is_inside = cell.cmpge(IVec2::ZERO).all() && cell.cmplt(size).all();
+    is_inside.then(|| cell.y as usize * size.x as usize + cell.x as usize)
+}
+
+/// The cells of a square with `side` cells a side, from its corner on.
+fn square(corner: IVec2, side: i32) -> impl Iterator<Item = IVec2> {
+    (0..side).flat_map(move |y| (0..side).map(move |x| corner + ivec2(x, y)))
+}
+
+/// From a point to the nearest point of a square.
+fn distance_to_square(point: DVec2, corner: IVec2, side: i32) -> f64 {
+    point.distance(point.clamp(corner.as_dvec2(), (corner + side).as_dvec2()))
 }
 
 /// The cells at the chessboard distance `ring` from a cell.
@@ -188,17 +226,20 @@ mod tests {
 
     #[test]
     fn the_nearest_chord_is_that_of_a_search_through_all() {
-        let width = 40;
         let noise = |i: usize| (i as f32 * 12.9898).sin().abs();
-        let picture: Vec<f32> = (0..width * width).map(|i| if i % 11 == 0 { noise(i) } else { 1.0 }).collect();
-        let found = contour(&picture, width);
-        for step in 0..200 {
-            let point = dvec2(f64::from(step) * 0.19 + 0.3, f64::from(step * 7 % 200) * 0.19 + 0.3);
-            let least = found.segments().iter().map(|s| s.distance(point)).fold(f64::INFINITY, f64::min);
-            let border = (point.min(dvec2(39.0, 39.0) - point)).min_element();
-            match found.nearest(point) {
-                Some((_, distance)) => assert_eq!(distance, least),
-                None => assert!(border < least, "{point} has a chord at {least} and a border at {border}"),
+        // Chords everywhere, and a few with empty blocks between them.
+        for (width, every) in [(40, 11), (100, 997)] {
+            let spots = (0..width * width).map(|i| if i % every == 0 { noise(i) } else { 1.0 });
+            let found = contour(&spots.collect::<Vec<f32>>(), width);
+            let end = DVec2::splat(width as f64 - 1.0);
+            for step in 0..400 {
+                let point = dvec2(f64::from(step) / 400.0, f64::from(step * 7 % 400) / 400.0) * end;
+                let least = found.segments().iter().map(|s| s.distance(point)).fold(f64::INFINITY, f64::min);
+                let border = point.min(end - point).min_element();
+                match found.nearest(point) {
+                    Some((_, distance)) => assert_eq!(distance, least),
+                    None => assert!(border < least, "{point} has a chord at {least} and a border at {border}"),
+                }
             }
         }
     }

@@ -8,9 +8,10 @@
 //! tilt_s = angle between the two as lines without direction, 0 to 90 degrees
 //! p50, p95 = smallest angle that 50, 95 % of the length do not exceed      visible share = length above 8.2 degrees
 //! ```
-//! A chord is at most a pixel's diagonal long, so noise tilts it as much as texels do; and without a penumbra every
-//! edge consists of the pixels' own sides and diagonals. Chords near the border of the mask are left out as in
-//! [`edge_displacement`](crate::edge_displacement()).
+//! A chord is at most a pixel's diagonal long, so noise tilts it as much as texels do, in the picture and in the truth:
+//! the grain of rotated taps, or of few rays to a light. Where the penumbra is narrower than a few pixels, an edge
+//! consists of the pixels' own sides and diagonals: leave such pixels out of the mask. Chords near the border of the mask
+//! are left out as in [`edge_displacement`](crate::edge_displacement()).
 
 use rayon::prelude::*;
 
