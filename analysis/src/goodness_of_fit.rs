@@ -41,8 +41,8 @@ use cohort::Design;
 /// Cohorts; with it 5 % is a whole number of cohorts, so that the test has that level (Davison & Hinkley 1997).
 const COHORTS: u32 = 199;
 
-/// Cohorts of a study of more than [`MANY`] people, which would take minutes otherwise.
-const COHORTS_OF_MANY: u32 = 39;
+/// Cohorts of a study of more than [`MANY`] people, which would take minutes otherwise: the fewest that can reject at 5 %.
+const COHORTS_OF_MANY: u32 = 19;
 
 /// Number of people above which there are fewer cohorts.
 const MANY: usize = 100;
