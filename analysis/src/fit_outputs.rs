@@ -19,6 +19,7 @@ use crate::{
     residual_figure::RESIDUAL_FIGURE,
     staircase_figure::STAIRCASE_FIGURE,
     study_tables::{THRESHOLDS_MARK, THRESHOLDS_TABLE, thresholds_csv},
+    threshold_intervals::threshold_intervals,
     trial_table::{TRIALS_COLUMNS, TRIALS_COLUMNS_MARK, TRIALS_MARK, TRIALS_TABLE, trials_columns, trials_csv},
 };
 
@@ -41,6 +42,9 @@ pub fn fit_study(study: &Study, folder: &Path) -> Result<Analysis, Error> {
         other => other?,
     };
     let relation = analysis.relation_file(study)?.to_json()? + "\n";
+    let fitted =
+        |round| analysis.series.iter().find(|series| series.round == round).map(|series| series.fit.parameters());
+    let intervals = threshold_intervals(study, fitted)?;
     let figures = Figures::of(study, &analysis)?;
     let report = report_html(study, &analysis, &figures);
     let Some((_, staircases)) = figures.staircases.into_iter().next() else {
@@ -54,7 +58,7 @@ pub fn fit_study(study: &Study, folder: &Path) -> Result<Analysis, Error> {
             output(REPORT, report, REPORT_MARK),
             output(TRIALS_TABLE, trials_csv(study)?, TRIALS_MARK),
             output(TRIALS_COLUMNS, trials_columns()?, TRIALS_COLUMNS_MARK),
-            output(THRESHOLDS_TABLE, thresholds_csv(&analysis.thresholds)?, THRESHOLDS_MARK),
+            output(THRESHOLDS_TABLE, thresholds_csv(&analysis.thresholds, &intervals)?, THRESHOLDS_MARK),
             output(FIT_FIGURE, figures.fit, FIGURE_MARK),
             output(PSYCHOMETRIC_FIGURE, figures.psychometric, FIGURE_MARK),
             output(RESIDUAL_FIGURE, figures.residuals, FIGURE_MARK),

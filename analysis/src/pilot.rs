@@ -20,6 +20,7 @@ use crate::{
     series::{answers_of, round_of, series_name},
     staircase_figure::STAIRCASE_FIGURE,
     study_tables::{THRESHOLDS_MARK, THRESHOLDS_TABLE, thresholds_csv},
+    threshold_intervals::threshold_intervals,
     thresholds::{ConditionThreshold, joint_threshold, thresholds_of},
     trial_table::{TRIALS_COLUMNS, TRIALS_COLUMNS_MARK, TRIALS_MARK, TRIALS_TABLE, trials_columns, trials_csv},
 };
@@ -38,6 +39,7 @@ pub(crate) fn write_pilot(study: &Study, reason: String, folder: &Path) -> Resul
     }
     let thresholds: Vec<ConditionThreshold> =
         study.people.iter().flat_map(|person| thresholds_of(person, &study.protocol, |_| None)).collect();
+    let intervals = threshold_intervals(study, |_| None)?;
     let panels: Vec<Panel> = study.protocol.rounds().into_iter().map(|round| panel(round, study)).collect();
     let psychometric = psychometric_figure::draw(&panels, "the protocol's slope")?;
     let staircases = staircases(study, &thresholds)?;
@@ -46,6 +48,7 @@ pub(crate) fn write_pilot(study: &Study, reason: String, folder: &Path) -> Resul
         reason: &reason,
         next,
         thresholds: &thresholds,
+        intervals: &intervals,
         left_out: &left_out(&thresholds, &study.protocol),
         psychometric: &psychometric,
         staircases: &staircases,
@@ -55,7 +58,7 @@ pub(crate) fn write_pilot(study: &Study, reason: String, folder: &Path) -> Resul
         output(REPORT, page.html(study), REPORT_MARK),
         output(TRIALS_TABLE, trials_csv(study)?, TRIALS_MARK),
         output(TRIALS_COLUMNS, trials_columns()?, TRIALS_COLUMNS_MARK),
-        output(THRESHOLDS_TABLE, thresholds_csv(&thresholds)?, THRESHOLDS_MARK),
+        output(THRESHOLDS_TABLE, thresholds_csv(&thresholds, &intervals)?, THRESHOLDS_MARK),
         output(PSYCHOMETRIC_FIGURE, psychometric.clone(), FIGURE_MARK),
     ];
     let first = staircases.first().map(|(_, figure)| output(STAIRCASE_FIGURE, figure.clone(), FIGURE_MARK));

@@ -92,7 +92,7 @@ pub fn report_html(study: &Study, analysis: &Analysis, figures: &Figures) -> Str
         figures.population.clone(),
         format!("<h2>Psychometric functions</h2>\n{}\n", figures.psychometric),
         relation::people_of_each(analysis),
-        people::people(analysis),
+        people::people(study, analysis),
         people::detection(study),
         people::tracks(study, &figures.staircases),
         relation::under_priors(analysis),

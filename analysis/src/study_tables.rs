@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::{
     Error,
     series::{kernel_name, pattern_name},
+    threshold_intervals::ThresholdIntervals,
     thresholds::ConditionThreshold,
 };
 
@@ -30,17 +31,27 @@ struct ThresholdRow<'a> {
     ratio: Option<f64>,
     log10_ratio: Option<f64>,
     standard_error_log10: Option<f64>,
+    profile_low95: Option<f64>,
+    profile_high95: Option<f64>,
+    bootstrap_low95: Option<f64>,
+    bootstrap_high95: Option<f64>,
     radius_px: Option<f64>,
     reason: String,
 }
 
-/// All thresholds as CSV; where there is none, the cells are empty and `reason` says why.
+/// All thresholds as CSV with the ends of their 95 % intervals, ratios by both methods; where there is none, the cells are empty
+/// and `reason` says why.
 ///
 /// # Errors
 /// The writer's.
-pub fn thresholds_csv(thresholds: &[ConditionThreshold]) -> Result<String, Error> {
+pub(crate) fn thresholds_csv(
+    thresholds: &[ConditionThreshold],
+    intervals: &[ThresholdIntervals],
+) -> Result<String, Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    for entry in thresholds {
+    for (entry, of) in thresholds.iter().zip(intervals) {
+        let [profile, bootstrap] =
+            [of.profile, of.bootstrap].map(|ends| ends.map(|end| end.map(|log10| 10_f64.powf(log10))));
         let found = entry.threshold.ok();
         let row = ThresholdRow {
             person: &entry.person,
@@ -56,6 +67,10 @@ pub fn thresholds_csv(thresholds: &[ConditionThreshold]) -> Result<String, Error
             ratio: found.map(|threshold| threshold.ratio()),
             log10_ratio: found.map(|threshold| threshold.log10_ratio),
             standard_error_log10: found.map(|threshold| threshold.standard_error_log10),
+            profile_low95: profile[0],
+            profile_high95: profile[1],
+            bootstrap_low95: bootstrap[0],
+            bootstrap_high95: bootstrap[1],
             radius_px: entry.radius_px(),
             reason: entry.threshold.err().map_or_else(String::new, |reason| reason.to_string()),
         };

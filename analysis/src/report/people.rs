@@ -9,9 +9,10 @@ use crate::{
     analysis::Analysis,
     checks::Checks,
     people::{Study, Track},
+    threshold_intervals::RESAMPLED_MOST,
 };
 
-pub(super) fn people(analysis: &Analysis) -> String {
+pub(super) fn people(study: &Study, analysis: &Analysis) -> String {
     let mut codes: Vec<&str> = analysis.thresholds.iter().map(|t| t.person.as_str()).collect();
     codes.dedup();
     let header: String = analysis.series.iter().map(|series| format!("<th>{}</th>", series.name)).collect();
@@ -33,10 +34,14 @@ pub(super) fn people(analysis: &Analysis) -> String {
         }
         rows += "</tr>\n";
     }
+    let bootstrap = match study.people.len() > RESAMPLED_MOST {
+        true => format!("those by bootstrap are left out for more than {RESAMPLED_MOST} people"),
+        false => "and by bootstrap".to_owned(),
+    };
     format!(
         "<h2>People</h2>\n<div class=\"wide\"><table>\n<tr><th>person</th><th>trials</th>\
          <th>converged</th>{header}</tr>\n{rows}</table></div>\n<p class=\"note\">Ratio at \
-         threshold with the factor of one standard error.</p>\n"
+         threshold with the factor of one standard error. 95 % intervals of each threshold by profile likelihood are in thresholds.csv, {bootstrap}.</p>\n"
     )
 }
 

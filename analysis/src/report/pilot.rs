@@ -3,7 +3,12 @@
 use std::fmt::Write;
 
 use super::{HEAD, QUESTION, escaped, method, people, simulated, threshold_in_words};
-use crate::{people::Study, series::round_of, series::series_name, thresholds::ConditionThreshold};
+use crate::{
+    people::Study,
+    series::{round_of, series_name},
+    threshold_intervals::{Ends, ThresholdIntervals},
+    thresholds::ConditionThreshold,
+};
 
 /// What the page shows.
 pub(crate) struct Page<'a> {
@@ -13,6 +18,8 @@ pub(crate) struct Page<'a> {
     pub next: &'a str,
     /// One a person and condition.
     pub thresholds: &'a [ConditionThreshold],
+    /// 95 % intervals of each.
+    pub intervals: &'a [ThresholdIntervals],
     /// A sentence for each that is missing.
     pub left_out: &'a [String],
     /// Figure of psychometric functions.
@@ -58,12 +65,12 @@ impl Page<'_> {
 
     fn table(&self, study: &Study) -> String {
         let mut rows = String::new();
-        for entry in self.thresholds {
+        for (entry, intervals) in self.thresholds.iter().zip(self.intervals) {
             let cells = match &entry.threshold {
                 Ok(threshold) => format!(
-                    "<td>{:.2}</td><td>{:.2}</td><td>{:.1}</td>",
+                    "<td>{:.2}</td><td>{}</td><td>{:.1}</td>",
                     threshold.ratio(),
-                    10_f64.powf(threshold.standard_error_log10),
+                    interval_in_words(&intervals.profile),
                     threshold.ratio() * entry.condition.texel_px,
                 ),
                 Err(_) => "<td>none</td><td></td><td></td>".to_owned(),
@@ -82,10 +89,16 @@ impl Page<'_> {
         }
         format!(
             "<h2>Thresholds</h2>\n<div class=\"wide\"><table>\n<tr><th>person</th><th>condition</th><th>texel, px</th><th>right \
-             answers</th><th>converged</th><th>ratio, texels</th><th>times or over, one SE</th><th>radius, px</th></tr>\n{rows}</table></div>\n<p \
+             answers</th><th>converged</th><th>ratio, texels</th><th>95 % CI</th><th>radius, px</th></tr>\n{rows}</table></div>\n<p \
              class=\"note\">At the threshold {}. Each is fitted alone, with the slope and lapses that the protocol \
-             assumes.</p>\n",
+             assumes; intervals by profile likelihood; those by bootstrap are in thresholds.csv.</p>\n",
             threshold_in_words(),
         )
     }
+}
+
+/// Ends of an interval as ratios; an end that the answers leave open is said to be.
+fn interval_in_words(ends: &Ends) -> String {
+    let [low, high] = ends.map(|end| end.map_or("open".to_owned(), |log10| format!("{:.2}", 10_f64.powf(log10))));
+    format!("{low} to {high}")
 }
