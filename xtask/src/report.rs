@@ -67,7 +67,7 @@ fn table(summary: &Summary) -> Result<String> {
          the shadow fraction against the same filter over the exact hard shadow, by rays, with neither texels nor bias.</p>\
          <table><thead><tr><th>Scene<th>Filter<th>Map<th>Texels<th>Depth map, ms<th>Demand, ms<th>Evaluation, ms\
          <th>RMS error, penumbra<th>99 %<th>RMS, all lit sides<th>Violation</thead><tbody>",
-        bench.frames, bench.width, bench.height, bench.machine.device
+        bench.options.frames, bench.options.width, bench.options.height, bench.machine.device
     );
     for row in &bench.rows {
         let Row { scene, triangles, method, times_ms: times, comparison, .. } = row;

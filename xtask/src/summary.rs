@@ -17,6 +17,9 @@ const TEXEL_SHARE_MAX: f64 = 0.25;
 /// RMS error of the shadow fraction over all lit sides: a shadow that is missing from 1 % of them costs as much.
 const ERROR_MAX: f64 = 0.1;
 
+/// The version of `bench.json` that is read here.
+const BENCH_SCHEMA: &str = "scumble/bench/2";
+
 /// The demonstration's numbers.
 pub struct Summary {
     /// The fitted relation.
@@ -42,11 +45,18 @@ pub struct Estimate {
 /// The part of `bench.json` that is shown.
 #[derive(Deserialize)]
 pub struct Bench {
+    schema: String,
     pub machine: Machine,
+    pub options: Options,
+    pub rows: Vec<Row>,
+}
+
+/// What the benchmark was asked for.
+#[derive(Deserialize)]
+pub struct Options {
     pub width: u32,
     pub height: u32,
     pub frames: u32,
-    pub rows: Vec<Row>,
 }
 
 #[derive(Deserialize)]
@@ -137,7 +147,9 @@ impl Row {
 impl Summary {
     /// Reads `relation.json` and `bench/bench.json` of a demonstration's folder.
     pub fn read(folder: &Path) -> Result<Self> {
-        Ok(Self { relation: read(&folder.join("relation.json"))?, bench: read(&folder.join("bench/bench.json"))? })
+        let bench: Bench = read(&folder.join("bench/bench.json"))?;
+        ensure!(bench.schema == BENCH_SCHEMA, "bench.json has the schema {}; {BENCH_SCHEMA} is expected", bench.schema);
+        Ok(Self { relation: read(&folder.join("relation.json"))?, bench })
     }
 
     /// Each fixed row with the adaptive row of the same scene and method.
@@ -185,7 +197,7 @@ impl fmt::Display for Summary {
         let Relation { ratio, people, trials } = &self.relation;
         let [low, high] = ratio.ci95;
         writeln!(f, "Fitted ratio: {:.2} texels [{low:.2}, {high:.2}], {people} people, {trials} trials", ratio.value)?;
-        let Bench { machine, width, height, frames, .. } = &self.bench;
+        let Bench { machine, options: Options { width, height, frames }, .. } = &self.bench;
         writeln!(f, "{}, {}; {width} x {height}, medians of {frames} frames", machine.device, machine.driver)?;
         writeln!(
             f,

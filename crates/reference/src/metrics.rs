@@ -11,7 +11,7 @@ use crate::percentile::p99;
 use crate::{Error, check};
 
 /// Differences of visibility, in shares of full light.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Differences {
     /// Pixels of the mask.
     pub pixels: usize,

@@ -80,12 +80,20 @@ pub struct Bench {
     /// Light, softness, relation and picture size
     #[command(flatten)]
     pub conditions: Conditions,
-    /// The directory for bench.csv, bench.json and the pictures; made if missing
+    /// The directory for bench.csv, bench.json and the pictures; made if missing. A run that was killed goes on
+    /// when it is started again with the same options
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Half the width and height, one sample per pixel in the pictures
     #[arg(long)]
     pub quick: bool,
+    /// Besides, adaptive maps chosen by ratios from 0.5 to 10: how error and violation depend on it
+    #[arg(long)]
+    pub sweep_ratio: bool,
+    /// The bench.json of a former run; prints what changed beyond noise: times whose quartile ranges do not overlap and
+    /// whose medians differ by more than 5 %, texels, RMS errors in the penumbra that differ by more than 2 %
+    #[arg(long, value_name = "OLD.json")]
+    pub against: Option<PathBuf>,
 }
 
 /// Options of `truth`.

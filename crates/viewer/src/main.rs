@@ -18,6 +18,7 @@ mod gbuffer;
 mod geometry;
 mod npy;
 mod output;
+mod progress;
 mod readback;
 mod record;
 mod setup;

@@ -2,14 +2,14 @@
 
 use std::process::Command;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::device::Gpu;
 use crate::setup::Setup;
 use scumble::{Plan, View};
 
 /// One shadow map of a plan.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MapRecord {
     /// Number of the light.
     pub light: u32,
@@ -48,7 +48,7 @@ impl MapRecord {
 }
 
 /// Where a run took place.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MachineRecord {
     /// Name of the adapter.
     pub device: String,
@@ -57,7 +57,7 @@ pub struct MachineRecord {
     /// Graphics interface.
     pub backend: String,
     /// Version of this program.
-    pub version: &'static str,
+    pub version: String,
     /// Commit of the source tree, where git knows one.
     pub git_commit: Option<String>,
 }
@@ -69,7 +69,7 @@ impl MachineRecord {
             device: gpu.info.name.clone(),
             driver: format!("{} {}", gpu.info.driver, gpu.info.driver_info).trim().to_owned(),
             backend: gpu.info.backend.to_string(),
-            version: env!("CARGO_PKG_VERSION"),
+            version: env!("CARGO_PKG_VERSION").into(),
             git_commit: git_commit(),
         }
     }
@@ -85,7 +85,7 @@ fn git_commit() -> Option<String> {
 }
 
 /// The relation that sizes were chosen by.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RatioRecord {
     /// Texels per filter radius.
     pub value: f64,

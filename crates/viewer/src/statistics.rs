@@ -1,9 +1,9 @@
 //! Medians and quartiles of repeated measurements.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The middle half of repeated measurements. Quartiles interpolate linearly between order statistics.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// Half of the measurements are below.
     pub median: f64,

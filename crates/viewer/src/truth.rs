@@ -16,12 +16,12 @@ use anyhow::{Context, Result};
 use scumble::{Filter, Plan};
 use scumble_reference::{Estimate, KernelTruth, Rays, Receiver};
 
-use crate::bench::progress;
 use crate::cli::{Size, Truth};
 use crate::device::Gpu;
 use crate::gbuffer::Surface;
 use crate::npy::npy;
 use crate::output::{Kind, claim, claim_with_record, write, write_json, write_png};
+use crate::progress::progress;
 use crate::setup::Setup;
 use crate::stage::Stage;
 use crate::timer::Timer;

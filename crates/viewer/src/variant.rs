@@ -1,6 +1,7 @@
 //! One method at one size on a stage: the shadow map, its frames, and when an adaptive size has come to rest.
 
 use anyhow::{Context, Result};
+use scumble::scumble_core::Relation;
 use scumble::{Aabb, Counters, Options, Plan, Settings, Shadows, SizeChoice};
 
 use crate::casters::CasterPass;
@@ -40,6 +41,17 @@ pub struct Variant {
 impl Variant {
     /// Allocates the map: at the cap for an adaptive size, as large as it is used for a fixed one.
     pub fn new(stage: &Stage, gbuffer: &GBuffer, method: Method, size: Size) -> Result<Self> {
+        Self::with_relation(stage, gbuffer, method, size, stage.setup.relation)
+    }
+
+    /// As [`new`](Self::new), but an adaptive size is chosen by another relation than the setup's.
+    pub fn with_relation(
+        stage: &Stage,
+        gbuffer: &GBuffer,
+        method: Method,
+        size: Size,
+        relation: Relation,
+    ) -> Result<Self> {
         let filter = stage.setup.filter(method);
         let device_limit = stage.gpu.device.limits().max_texture_dimension_2d;
         let (cap, choice) = match size {
@@ -47,13 +59,8 @@ impl Variant {
             Size::Fixed(texels) => (texels[0].max(texels[1]), SizeChoice::Fixed(texels)),
         };
         // A still picture has nothing to flicker, so sizes may shrink as soon and as far as the demand allows.
-        let settings = Settings {
-            relation: stage.setup.relation,
-            cap,
-            shrink_after_frames: 1,
-            shrink_rungs: RUNGS_ALL,
-            ..Settings::default()
-        };
+        let settings =
+            Settings { relation, cap, shrink_after_frames: 1, shrink_rungs: RUNGS_ALL, ..Settings::default() };
         let options = Options { filter, size: choice, measure_stride: MEASURE_STRIDE, ..Options::default() };
         let shadows = Shadows::with_options(&stage.gpu.device, settings, options)
             .with_context(|| format!("--size {size} --method {}", method.name()))?;

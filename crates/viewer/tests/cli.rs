@@ -168,6 +168,7 @@ fn a_bench_writes_a_table_a_record_and_the_pictures_that_it_names() {
     ];
     let output = viewer(&arguments);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(!out.join("bench.partial.jsonl").exists(), "what is finished is not begun");
 
     let table = fs::read_to_string(out.join("bench.csv")).unwrap();
     assert_eq!(table.lines().count(), 3, "{table}");
@@ -184,4 +185,10 @@ fn a_bench_writes_a_table_a_record_and_the_pictures_that_it_names() {
     }
     assert!(rows[1]["texels"].as_u64().unwrap() < 1024 * 1024 / 2, "the adaptive map is the smaller one");
     assert_eq!(rows[1]["comparison"]["violation_share"], 0.0);
+
+    let old = directory.path().join("old.json");
+    fs::write(&old, r#"{ "schema": "scumble/bench/1" }"#).unwrap();
+    let refused = viewer(&[&arguments[..], &["--against", path_text(&old)]].concat());
+    let line = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(!refused.status.success() && line.contains("scumble/bench/2 is expected"), "{line}");
 }

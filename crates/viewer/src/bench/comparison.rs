@@ -6,10 +6,10 @@
 //! texel is also larger than the pixel: there the relation says that texels are seen.
 
 use anyhow::Result;
-use scumble::Light;
 use scumble::scumble_core::pixel_footprint_world;
+use scumble::{Light, Settings};
 use scumble_reference::{Differences, differences, penumbra};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::cli::Method;
 use crate::gbuffer::Surface;
@@ -38,7 +38,7 @@ impl Screen {
 }
 
 /// Errors of a variant.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
     /// Over all pixels that face the light.
     pub lit_facing: Differences,
@@ -75,7 +75,7 @@ fn faces(light: &Light, surface: &Surface) -> bool {
     is_in_cone && to_light.dot(surface.normal.as_dvec3()) > 0.0
 }
 
-/// Share of the filtered penumbra whose demand the map does not meet.
+/// Share of the filtered penumbra whose demand, by the setup's relation, the map does not meet.
 fn violation_share(
     stage: &Stage,
     variant: &Variant,
@@ -84,7 +84,7 @@ fn violation_share(
     radii: &[f32],
 ) -> Result<Option<f64>> {
     let Some(view) = variant.plan()?.views().first() else { return Ok(None) };
-    let settings = variant.settings();
+    let settings = Settings { relation: stage.setup.relation, ..variant.settings().clone() };
     let camera = &stage.setup.scene.camera;
     let needed = settings.relation.radius_from_texel(view.texel_world().max_element()) * (1.0 - VIOLATION_SLACK);
     // Only PCSS widens what is narrower than its least radius.

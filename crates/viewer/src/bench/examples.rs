@@ -1,0 +1,68 @@
+//! Small records for the tests of this command.
+
+use std::collections::BTreeMap;
+
+use scumble_reference::Differences;
+
+use crate::bench::comparison::Comparison;
+use crate::bench::record::{BenchRecord, OptionsRecord, SCHEMA};
+use crate::bench::row::{Key, Row};
+use crate::record::{MachineRecord, RatioRecord};
+use crate::statistics::Spread;
+
+/// A row of a total time, spread by one per cent to both sides, and an error in the penumbra.
+pub fn row(scene: &str, method: &str, size: &str, total_ms: f64, error: f64) -> Row {
+    let differences = Differences { pixels: 100, max: 4.0 * error, p99: 3.0 * error, rms: error, bias: 0.0 };
+    let total = Spread { median: total_ms, lower_quartile: 0.99 * total_ms, upper_quartile: 1.01 * total_ms };
+    Row {
+        key: Key { scene: scene.into(), method: method.into(), size: size.into() },
+        triangles: 12,
+        texels: size.parse::<u64>().map_or(100_000, |side| side * side),
+        maps: Vec::new(),
+        bytes_used: 0,
+        bytes_allocated: 0,
+        passes: 2,
+        taps_per_pixel: 25,
+        times_ms: BTreeMap::from([("total".into(), total)]),
+        comparison: Comparison { lit_facing: differences, penumbra: differences, violation_share: Some(0.0) },
+        pictures: BTreeMap::new(),
+    }
+}
+
+/// Options of a run of two scenes.
+pub fn options() -> OptionsRecord {
+    OptionsRecord {
+        scenes: vec!["yard".into(), "contact".into()],
+        methods: vec!["pcf".into()],
+        sizes: vec!["2048".into(), "adaptive".into()],
+        frames: 15,
+        width: 1280,
+        height: 720,
+        quick: false,
+        sweep_ratio: false,
+        cap: 1024,
+        light_size: None,
+        radius: None,
+    }
+}
+
+/// A record of these rows.
+pub fn record(rows: Vec<Row>) -> BenchRecord {
+    let machine = MachineRecord {
+        device: "a device".into(),
+        driver: "a driver".into(),
+        backend: "vulkan".into(),
+        version: "0.1.0".into(),
+        git_commit: None,
+    };
+    let ratio = RatioRecord { value: 3.47, ci95: [3.0, 4.0], source: "published".into() };
+    BenchRecord {
+        schema: SCHEMA.into(),
+        machine,
+        ratio,
+        options: options(),
+        columns: Vec::new(),
+        rows,
+        sweep: Vec::new(),
+    }
+}

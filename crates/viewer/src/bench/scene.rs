@@ -1,0 +1,154 @@
+//! One scene of the benchmark: all variants timed in turns, then each compared with the truth of its method.
+
+use anyhow::Result;
+use indicatif::ProgressBar;
+use scumble_reference::Rays;
+
+use crate::bench::comparison::{Screen, compare};
+use crate::bench::partial::Partial;
+use crate::bench::pictures::Pictures;
+use crate::bench::row::{Key, Row, Timings};
+use crate::bench::sweep::sweep;
+use crate::cli::{Bench, Method, Size};
+use crate::gbuffer::GBuffer;
+use crate::output::make_directory;
+use crate::progress::progress;
+use crate::stage::Stage;
+use crate::timer::Timer;
+use crate::truth::true_visibility;
+use crate::variant::Variant;
+
+/// Samples per pixel along x and along y of the pictures.
+const SAMPLES_PER_SIDE: u32 = 2;
+
+/// Whether nothing is left to do for a method of a scene.
+fn is_done(options: &Bench, partial: &Partial, scene: &str, method: Method) -> bool {
+    let key = |size: &Size| Key { scene: scene.into(), method: method.name().into(), size: size.to_string() };
+    options.sizes.iter().all(|size| partial.has_row(&key(size)))
+        && (!options.sweep_ratio || partial.has_sweep(scene, method.name()))
+}
+
+/// Whether a former run has finished a scene.
+pub fn is_finished(options: &Bench, partial: &Partial, scene: &str) -> bool {
+    options.methods.iter().all(|&method| is_done(options, partial, scene, method))
+}
+
+/// Adds to `partial` what it lacks of a scene; `rows` advances by one for each row.
+pub fn bench_scene(
+    options: &Bench,
+    size_px: [u32; 2],
+    stage: &Stage,
+    partial: &mut Partial,
+    rows: &ProgressBar,
+) -> Result<()> {
+    let name = stage.setup.scene.name.clone();
+    let left: Vec<Method> =
+        options.methods.iter().copied().filter(|&method| !is_done(options, partial, &name, method)).collect();
+    let receivers = stage.receivers(size_px, 1)?;
+    let mut timer = Timer::new(&stage.gpu);
+    let mut variants = Vec::new();
+    for &method in &left {
+        for &size in &options.sizes {
+            let mut variant = Variant::new(stage, &receivers, method, size)?;
+            variant.settle(stage, &receivers, &mut timer)?;
+            variants.push(variant);
+        }
+    }
+    if !partial.has_times(&name) {
+        time(options, stage, &receivers, &mut variants, &mut timer, partial)?;
+    }
+
+    let screen = Screen::new(&stage.setup.scene.light, receivers.read_surfaces(&stage.gpu)?, size_px);
+    let rays = Rays::new(&stage.setup.scene);
+    let samples_per_side = if options.quick { 1 } else { SAMPLES_PER_SIDE };
+    for &method in &left {
+        let Some(first) = variants.iter().find(|variant| variant.method == method) else { continue };
+        let plan = first.plan()?.clone();
+        let filter = stage.setup.filter(method);
+        let message = format!("{name}: truth of {}", method.name());
+        let truth = true_visibility(&message, &rays, &filter, &plan, &screen.surfaces, size_px[0]);
+
+        let directory = options.out.join(directory_name(&name)).join(method.name());
+        make_directory(&directory)?;
+        let pictures = Pictures::new(stage, &directory, size_px, samples_per_side)?;
+        let truth_picture = pictures.truth(&rays, &filter, &plan, &truth)?;
+        for variant in variants.iter_mut().filter(|variant| variant.method == method) {
+            let key = Key::of(&name, variant);
+            if partial.has_row(&key) {
+                continue;
+            }
+            let visibility = variant.read_visibility(stage)?;
+            let radii = variant.read_radii(stage, &receivers)?;
+            let comparison = compare(stage, variant, &screen, &visibility, &truth, &radii)?;
+            let label = label(variant.size, &options.sizes);
+            let files = pictures.variant(variant, &label, &visibility, &truth, &screen.lit_facing, &truth_picture)?;
+            let row = Row::new(stage, variant, partial.times(&key), comparison, files, &options.out)?;
+            rows.suspend(|| println!("{row}"));
+            partial.add_row(row)?;
+            rows.inc(1);
+        }
+        if options.sweep_ratio && !partial.has_sweep(&name, method.name()) {
+            partial.add_sweep(&name, method.name(), sweep(stage, &receivers, method, &screen, &truth)?)?;
+        }
+    }
+    Ok(())
+}
+
+/// Times the frames of all variants of a scene, which take turns.
+fn time(
+    options: &Bench,
+    stage: &Stage,
+    receivers: &GBuffer,
+    variants: &mut [Variant],
+    timer: &mut Timer,
+    partial: &mut Partial,
+) -> Result<()> {
+    let name = &stage.setup.scene.name;
+    let bar = progress(&format!("{name}: frames"), u64::from(options.frames));
+    let mut timings: Vec<Timings> = variants.iter().map(|_| Timings::default()).collect();
+    for _ in 0..options.frames {
+        for (variant, timing) in variants.iter_mut().zip(&mut timings) {
+            timing.add(&variant.frame(stage, receivers, timer)?);
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let of_variants = variants.iter().zip(&timings);
+    let spreads = of_variants.map(|(variant, timing)| (Key::of(name, variant), timing.spreads())).collect();
+    partial.add_times(name, spreads)
+}
+
+/// `adaptive`, `fixed` for the largest fixed size, `fixed-512` for others.
+fn label(size: Size, sizes: &[Size]) -> String {
+    let area = |size: &Size| match size {
+        Size::Fixed([across, down]) => u64::from(*across) * u64::from(*down),
+        Size::Adaptive => 0,
+    };
+    match size {
+        Size::Adaptive => "adaptive".into(),
+        _ if Some(area(&size)) == sizes.iter().map(area).max() => "fixed".into(),
+        _ => format!("fixed-{size}"),
+    }
+}
+
+/// A scene's name as a folder's, whatever its file was called.
+fn directory_name(scene: &str) -> String {
+    let safe = |character: char| if character.is_alphanumeric() || "-_".contains(character) { character } else { '-' };
+    scene.chars().map(safe).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_fixed_size_is_the_fixed_one() {
+        let sizes = [Size::Fixed([512, 512]), Size::Adaptive, Size::Fixed([1024, 2048])];
+        assert_eq!(sizes.map(|size| label(size, &sizes)), ["fixed-512", "adaptive", "fixed"]);
+    }
+
+    #[test]
+    fn a_scene_cannot_name_a_folder_elsewhere() {
+        assert_eq!(directory_name("../my scene.v2"), "---my-scene-v2");
+    }
+}
