@@ -9,7 +9,7 @@ use crate::{
     series::Series,
 };
 
-/// Below this p a fit is called doubtful: the level of the report's intervals.
+/// Largest p of a fit that is called doubtful: the level of the report's intervals.
 const DOUBTFUL: f64 = 0.05;
 
 /// Standard deviations from the expected number from which a band is called off.
@@ -53,7 +53,7 @@ pub(super) fn goodness(analysis: &Analysis) -> String {
     let verdict = match doubtful.len() {
         0 => "<p>No condition speaks against the model. With few answers only a large misfit would.</p>\n".to_owned(),
         _ => format!(
-            "<ul>\n{}</ul>\n<p>Of {} tests, each falls below {DOUBTFUL} once in twenty studies though the model is \
+            "<ul>\n{}</ul>\n<p>Of {} tests, each is at {DOUBTFUL} or below once in twenty studies though the model is \
              right.</p>\n",
             doubtful.concat(),
             2 * analysis.series.len()
@@ -72,7 +72,7 @@ pub(super) fn goodness(analysis: &Analysis) -> String {
 }
 
 fn is_doubtful(p: f64) -> bool {
-    p < DOUBTFUL
+    p <= DOUBTFUL
 }
 
 fn p_with_sign(p: f64) -> String {

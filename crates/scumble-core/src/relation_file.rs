@@ -141,11 +141,11 @@ pub struct GoodnessOfFit {
     pub chi_square: f64,
     /// Its mean over the cohorts.
     pub expected: f64,
-    /// Share of cohorts, the data among them, with as large a sum: below 0.05 the model is doubtful.
+    /// Share of cohorts, the data among them, with as large a sum: up to 0.05 the model is doubtful.
     pub p_value: f64,
     /// Right answers, less expected ones, in late less early halves of the staircases, in standard deviations.
     pub drift: f64,
-    /// Share of cohorts, the data among them, with as large a drift either way: below 0.05 people learn or tire.
+    /// Share of cohorts, the data among them, with as large a drift either way: up to 0.05 people learn or tire.
     pub drift_p_value: f64,
     /// Number of cohorts.
     pub cohorts: u64,
