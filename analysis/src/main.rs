@@ -4,6 +4,7 @@ use std::{
     io::stdout,
     path::{Path, PathBuf},
     process::ExitCode,
+    time::Duration,
 };
 
 use anyhow::Context;
@@ -300,13 +301,20 @@ fn threshold(data: &Path, guess: f64, lapse: Parameter, resampling: &Resampling)
     Ok(())
 }
 
+/// Time between two pictures of a spinner: ten a second look alive.
+const SPIN: Duration = Duration::from_millis(100);
+
 /// Prints the result and where the files are; notices go to the error stream.
 fn fit(sessions: &[PathBuf], out: &Path) -> anyhow::Result<()> {
     let study = Study::read(sessions)?;
     for notice in &study.notices {
         eprintln!("notice: {notice}");
     }
-    let analysis = fit_study(&study, out)?;
+    let wait = ProgressBar::new_spinner().with_message("fitting, and testing the fit");
+    wait.enable_steady_tick(SPIN);
+    let analysis = fit_study(&study, out);
+    wait.finish_and_clear();
+    let analysis = analysis?;
     for exclusion in &analysis.exclusions {
         eprintln!("notice: {exclusion}");
     }
