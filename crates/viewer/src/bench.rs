@@ -19,6 +19,7 @@ mod record;
 mod row;
 mod scene;
 mod sweep;
+mod trade;
 
 use std::path::PathBuf;
 
@@ -29,6 +30,7 @@ use crate::bench::column::{descriptions, table};
 use crate::bench::partial::{Header, Partial};
 use crate::bench::record::{BenchRecord, OptionsRecord, SCHEMA};
 use crate::bench::scene::{bench_scene, is_finished};
+use crate::bench::trade::trades;
 use crate::cli::{Bench, Conditions};
 use crate::device::Gpu;
 use crate::output::{Kind, claim, make_directory, write, write_json};
@@ -88,6 +90,7 @@ pub fn run(options: &Bench) -> Result<()> {
     write(&results.table, table(&record.options, &record.rows)?.as_bytes())?;
     write_json(&results.record, &record)?;
     partial.remove()?;
+    trades(&record.rows).iter().for_each(|trade| println!("{trade}"));
     println!("{}, {}", results.table.display(), results.record.display());
     if let Some(old) = old {
         println!("{}", changes(&old, &record)?);
