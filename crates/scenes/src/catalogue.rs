@@ -13,7 +13,7 @@ pub struct Entry {
     build: fn(&Path) -> Result<Scene, Error>,
 }
 
-const CATALOGUE: [Entry; 4] = [
+const CATALOGUE: [Entry; 9] = [
     Entry {
         name: "yard",
         description: "fence, swing, deck chair and parasol in a low soft sun: thin bars, long shadows, contact",
@@ -30,9 +30,34 @@ const CATALOGUE: [Entry; 4] = [
         build: compositions::recital,
     },
     Entry {
+        name: "room",
+        description: "table, shelf, bench and chair under a hanging lamp: contact under every foot, soft edges on walls",
+        build: compositions::room,
+    },
+    Entry {
         name: "contact",
         description: "a box on a plane in a soft sun: the penumbra that grows from nothing",
         build: compositions::contact,
+    },
+    Entry {
+        name: "slats",
+        description: "a blind before the sun: parallel edges at a regular pitch, on floor and wall",
+        build: compositions::slats,
+    },
+    Entry {
+        name: "wedge",
+        description: "a plate's slanted edge 1 m over a plane, the sun in the zenith: every value is known",
+        build: compositions::wedge,
+    },
+    Entry {
+        name: "giant",
+        description: "contact in lengths of 2^20 for 1: what gives another picture holds a hidden length",
+        build: compositions::giant,
+    },
+    Entry {
+        name: "speck",
+        description: "contact in lengths of 2^-20 for 1: the same at the other end",
+        build: compositions::speck,
     },
 ];
 

@@ -2,12 +2,20 @@
 
 mod contact;
 mod recital;
+mod room;
+mod scaled;
+mod slats;
 mod stairwell;
+mod wedge;
 mod yard;
 
 pub use contact::contact;
 pub use recital::recital;
+pub use room::room;
+pub use scaled::{giant, speck};
+pub use slats::slats;
 pub use stairwell::stairwell;
+pub use wedge::wedge;
 pub use yard::yard;
 
 /// Pictures are composed for 16:9; a program with another window sets its own aspect.

@@ -11,6 +11,9 @@
 //! # Ok(()) }
 //! ```
 //!
+//! What moves is a [`Path`]: every scene has `approach`, `pan` and `creep` for its camera and `sweep` for its light
+//! ([`Scene::path`], [`Scene::moved`]).
+//!
 //! Goals: no shadow that the file does not hold (concave polygons are cut by ears, not as fans), every problem of a
 //! file as one line that names file and place, everything in metres. Not goals: textures, animation, transparency; a
 //! mesh has one colour.
@@ -23,8 +26,10 @@ mod gltf_color;
 mod gltf_file;
 mod mesh;
 mod model;
+mod motion;
 mod obj;
 mod obj_lines;
+mod path;
 mod polygon;
 mod scene;
 mod shading;
@@ -35,5 +40,6 @@ pub use error::Error;
 pub use gltf_file::load_gltf;
 pub use mesh::{Mesh, bounds_of};
 pub use obj::load_obj;
+pub use path::{Path, Pose};
 pub use scene::Scene;
 pub use shapes::{cuboid, ground};

@@ -1,4 +1,4 @@
-//! Procedural shapes: the ground and the box. Corners are doubled at edges, so that every face is flat-shaded.
+//! Procedural shapes: the ground, the box and the lamp shade. Corners are doubled at edges, so that every face is flat-shaded.
 
 use crate::Mesh;
 use glam::{DVec3, Vec3};
@@ -21,6 +21,23 @@ pub fn cuboid(name: &str, min: DVec3, max: DVec3, linear_color: Vec3) -> Mesh {
     let mut mesh = empty(name, linear_color);
     for face in FACES {
         push_quad(&mut mesh, face.map(|i| corners[i]));
+    }
+    mesh
+}
+
+/// The side of an upright cone cut off above, open at both ends, `radii` below and above, from `foot` up by `height`.
+pub fn shade(name: &str, foot: DVec3, radii: [f64; 2], height: f64, linear_color: Vec3) -> Mesh {
+    // A circle of 32 corners differs from its polygon by half a percent of the radius.
+    const CORNERS: u32 = 32;
+    let rim = |i: u32, radius: f64, y: f64| {
+        let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / f64::from(CORNERS)).sin_cos();
+        foot + DVec3::new(radius * sin, y, radius * cos)
+    };
+    let mut mesh = empty(name, linear_color);
+    for i in 0..CORNERS {
+        let below = [i, i + 1].map(|i| rim(i, radii[0], 0.0));
+        let above = [i, i + 1].map(|i| rim(i, radii[1], height));
+        push_quad(&mut mesh, [below[0], below[1], above[1], above[0]]);
     }
     mesh
 }
