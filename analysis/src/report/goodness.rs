@@ -20,15 +20,25 @@ const NAMED_MOST: usize = 3;
 
 /// A sentence for the first screen where the model fits the renderer's number badly; nothing elsewhere.
 pub(super) fn warning(analysis: &Analysis) -> String {
-    let Some(fit) = analysis.goodness.get(analysis.worst).filter(|fit| is_doubtful(fit.p_value.min(fit.drift_p_value)))
-    else {
+    let Some(fit) = analysis.goodness.get(analysis.worst).filter(|fit| is_bad(fit)) else {
         return String::new();
     };
     format!(
         "<p class=\"notice\">The model fits these answers badly (p {}): read <a href=\"#fit\">Does the model fit?</a> \
          before you use the number.</p>\n",
-        p_with_sign(fit.p_value.min(fit.drift_p_value))
+        p_with_sign(smaller_p(fit))
     )
+}
+
+/// Whether the smaller of a condition's two p is doubtful though it is the smaller of two (Bonferroni), or is as small as
+/// so few cohorts can show.
+fn is_bad(fit: &GoodnessOfFit) -> bool {
+    let least = 1.0 / (1.0 + f64::from(fit.cohorts));
+    smaller_p(fit) <= (DOUBTFUL / 2.0).max(least)
+}
+
+fn smaller_p(fit: &GoodnessOfFit) -> f64 {
+    fit.p_value.min(fit.drift_p_value)
 }
 
 pub(super) fn goodness(analysis: &Analysis) -> String {
@@ -133,4 +143,27 @@ fn scatter(series: &Series, fit: &GoodnessOfFit) -> Option<String> {
 /// How far a band is from what is expected, in its standard deviations.
 fn sds(band: &Band) -> f64 {
     (band.right - band.expected) / band.variance.max(f64::MIN_POSITIVE).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_of_two_tests_just_below_a_twentieth_does_not_spoil_the_first_screen() {
+        let band = Band { answers: 2.0, right: 1.0, expected: 1.0, variance: 1.0 };
+        let with = |p_value, cohorts| GoodnessOfFit {
+            chi_square: 1.0,
+            expected: 1.0,
+            p_value,
+            drift: 0.0,
+            drift_p_value: 0.5,
+            cohorts,
+            bands: [band; 3],
+            parts: Vec::new(),
+        };
+        assert!(!is_bad(&with(0.035, 199)));
+        assert!(is_bad(&with(0.025, 199)));
+        assert!(is_bad(&with(0.05, 19)), "no smaller p can be shown");
+    }
 }
