@@ -110,10 +110,9 @@ impl Axis {
     /// Finer at once; coarser late and not far, but for the cap. `wanted` is a texel in metres, `None` for any.
     fn step(&mut self, extent: f64, wanted: Option<f64>, settings: &Settings) {
         let fits = finest_rung(extent, settings.cap);
-        let smallest = finest_rung(extent, settings.floor).min(fits);
         let Some(rung) = self.rung else {
-            let rung = wanted.map_or(smallest, |texel| coarsest_rung(texel).min(fits));
-            *self = Self { rung: Some(rung), ..Self::default() };
+            let rung = wanted.map_or_else(|| finest_rung(extent, settings.floor), coarsest_rung);
+            *self = Self { rung: Some(rung.min(fits)), ..Self::default() };
             return;
         };
         let stays = Self { rung: Some(rung.min(fits)), ..Self::default() };

@@ -129,10 +129,9 @@ fn found_at(light: u32, pixel: vec2i, size: vec2i) -> Found {
     if sample.visibility == 0.0 {
         return Found(MEASURE_NOTHING, SHADOW_BLOCK_UMBRA);
     }
-    let is_partial = sample.visibility > 0.0 && sample.visibility < 1.0 && sample.blockers >= 2u;
     let guard = max(measure.radius_floor_world, measure.radius_per_footprint * footprint(light, here, position_light.z));
     let radius = max(sample.radius_plane, guard);
-    if !is_partial || !(radius > 0.0) {
+    if sample.blockers < 2u || !(radius > 0.0) {
         return Found(MEASURE_NOTHING, SHADOW_BLOCK_MIXED);
     }
     return Found(min(bitcast<u32>(radius), MEASURE_NOTHING), SHADOW_BLOCK_MIXED);

@@ -16,15 +16,6 @@ fn shadow_filter_of(light: u32) -> u32 {
     return shadow_filter;
 }
 
-// Samples that `ShadowSample.blockers` counts among.
-fn shadow_samples(light: u32) -> u32 {
-    switch shadow_filter_of(light) {
-        case SHADOW_FILTER_HARD: { return 1u; }
-        case SHADOW_FILTER_PCF: { return SHADOW_PCF_TAPS; }
-        default: { return SHADOW_BLOCKER_TAPS; }
-    }
-}
-
 // Filters a point that has a place in the light's map.
 fn shadow_filtered(light: u32, receiver: ShadowReceiver, frag_coord: vec2f) -> ShadowSample {
     let kind = shadow_filter_of(light);

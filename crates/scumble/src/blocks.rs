@@ -1,10 +1,10 @@
 //! Which pixels one lookup is enough for: what the demand pass found at the corners of blocks of pixels, and the pass that
 //! joins the four corners of each block.
 //!
-//! A corner is *lit* where no sample met a blocker, *umbra* where all did and nothing came through, and *mixed* anywhere
-//! else; a block is what all of its corners agree on. A pixel of a lit or dark block looks up the map once and filters
-//! only where the lookup disagrees. So a silhouette is missed only where it lies between corners that are all farther
-//! from it than the search radius (PCSS) or the kernel (PCF), with a single lookup that misses it too.
+//! A corner is *lit* where the filter lets all light through, *umbra* where it lets none, and *mixed* anywhere else; a block
+//! is what all of its corners agree on. A pixel of a lit or dark block looks up the map once and filters only where the
+//! lookup disagrees. So what is missed is a penumbra, or a part of one, that lies between corners outside of it, where a
+//! single lookup says what they say.
 
 use crate::uniforms::LIGHTS_MAX;
 
