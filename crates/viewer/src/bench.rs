@@ -29,7 +29,7 @@ use crate::bench::against::changes;
 use crate::bench::column::{descriptions, table};
 use crate::bench::partial::{Header, Partial};
 use crate::bench::record::{BenchRecord, OptionsRecord, SCHEMA};
-use crate::bench::scene::{bench_scene, is_finished};
+use crate::bench::scene::{bench_scene, is_finished, rows_of_scene};
 use crate::bench::trade::trades;
 use crate::cli::{Bench, Conditions};
 use crate::device::Gpu;
@@ -48,7 +48,8 @@ struct Results {
 /// Runs the command.
 pub fn run(options: &Bench) -> Result<()> {
     // Everything that can be refused is refused before the first frame.
-    ensure!(!options.sizes.is_empty() && !options.methods.is_empty(), "--sizes and --methods need one entry at least");
+    let is_complete = !options.sizes.is_empty() && !options.methods.is_empty() && !options.softness.is_empty();
+    ensure!(is_complete, "--sizes, --methods and --softness need one entry at least");
     let old = options.against.as_deref().map(BenchRecord::read).transpose()?;
     let conditions = conditions(options);
     let setups = open_scenes(options, &conditions)?;
@@ -65,7 +66,7 @@ pub fn run(options: &Bench) -> Result<()> {
     let mut partial = Partial::open(&options.out, &Header::new(&asked, &machine, &ratio))?;
 
     // The scenes, one after the other.
-    let count = names.len() * options.methods.len() * options.sizes.len();
+    let count = names.len() * rows_of_scene(options);
     let rows = progress("rows", count as u64);
     rows.set_position(partial.rows().len() as u64);
     partial.rows().iter().for_each(|row| rows.suspend(|| println!("{row}  (of the run before)")));
@@ -118,6 +119,7 @@ fn open_scenes(options: &Bench, conditions: &Conditions) -> Result<Vec<Setup>> {
     for (index, setup) in setups.iter().enumerate() {
         let name = &setup.scene.name;
         let is_new = setups[..index].iter().all(|other| other.scene.name != *name);
+        options.softness.iter().try_for_each(|&softness| setup.light(softness).map(drop))?;
         ensure!(is_new, "--scenes: two scenes are named {name}; results are kept by name, so run them one by one");
     }
     Ok(setups)

@@ -71,6 +71,9 @@ pub struct Bench {
     /// Filters, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', default_value = "pcf,pcss")]
     pub methods: Vec<Method>,
+    /// How soft, separated by commas: times the radius of pcf and the size of the light for pcss
+    #[arg(long, value_delimiter = ',', default_value = "1", value_name = "F,F", value_parser = positive)]
+    pub softness: Vec<f64>,
     /// Sizes, separated by commas: `adaptive`, N or NxM
     #[arg(long, value_delimiter = ',', default_value = "2048,adaptive", value_name = "N,adaptive")]
     pub sizes: Vec<Size>,

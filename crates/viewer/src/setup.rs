@@ -42,13 +42,35 @@ impl Setup {
         Ok(Self { scene, pcf_radius_plane, cap: conditions.cap, relation, relation_source })
     }
 
-    /// The filter of a method with the softness of this setup.
-    pub fn filter(&self, method: Method) -> Filter {
+    /// The filter of a method, `softness` times as soft as this setup; PCSS takes its softness from the light.
+    pub fn filter(&self, method: Method, softness: f64) -> Filter {
         match method {
             Method::None => Filter::Hard,
-            Method::Pcf => Filter::Pcf { radius_world: self.pcf_radius_plane },
+            Method::Pcf => Filter::Pcf { radius_world: self.pcf_radius_plane * softness },
             Method::Pcss => Filter::Pcss,
         }
+    }
+
+    /// The light, `softness` times as large as this setup's.
+    ///
+    /// # Errors
+    /// A sun that would be wider than a disc in the sky can be.
+    pub fn light(&self, softness: f64) -> Result<Light> {
+        let mut light = self.scene.light;
+        match &mut light {
+            Light::Directional { half_angle, .. } => {
+                *half_angle *= softness;
+                ensure!(
+                    half_angle.to_degrees() <= HALF_ANGLE_MAX_DEG,
+                    "--softness {softness}: makes the sun of {} {:.1} degrees wide to each side; {HALF_ANGLE_MAX_DEG} \
+                     are allowed",
+                    self.scene.name,
+                    half_angle.to_degrees()
+                );
+            }
+            Light::Spot { radius_world, .. } => *radius_world *= softness,
+        }
+        Ok(light)
     }
 }
 

@@ -136,6 +136,24 @@ impl ShadingPass {
         visibility: &wgpu::Texture,
         samples_per_side: u32,
     ) -> Result<RgbImage> {
+        let mut encoder = gpu.encoder("picture");
+        let picture = self.draw(gpu, &mut encoder, gbuffer, visibility, samples_per_side);
+        gpu.finish(encoder)?;
+        let rgba = read_texture(gpu, &picture)?;
+        let rgb = rgba.chunks_exact(4).flat_map(|texel| &texel[..3]).copied().collect();
+        RgbImage::from_raw(picture.width(), picture.height(), rgb)
+            .context("the picture has another size than its pixels")
+    }
+
+    /// Records the passes of a picture and returns where it will be.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        gbuffer: &GBuffer,
+        visibility: &wgpu::Texture,
+        samples_per_side: u32,
+    ) -> wgpu::Texture {
         let [width, height] = gbuffer.size_px.map(|side| side / samples_per_side);
         let openness = target(gpu, "openness", gbuffer.size_px, Self::OPENNESS_FORMAT);
         let picture = target(gpu, "picture", [width, height], Self::PICTURE_FORMAT);
@@ -148,13 +166,9 @@ impl ShadingPass {
                 entry(1, wgpu::BindingResource::TextureView(&views[1])),
             ],
         });
-        let mut encoder = gpu.encoder("picture");
-        fullscreen::draw(&mut encoder, "ambient", &self.ambient, &[&gbuffer.bind_group], &openness);
-        fullscreen::draw(&mut encoder, "shade", &self.shade, &[&gbuffer.bind_group, &bind_group], &picture);
-        gpu.finish(encoder)?;
-        let rgba = read_texture(gpu, &picture)?;
-        let rgb = rgba.chunks_exact(4).flat_map(|texel| &texel[..3]).copied().collect();
-        RgbImage::from_raw(width, height, rgb).context("the picture has another size than its pixels")
+        fullscreen::draw(encoder, "ambient", &self.ambient, &[&gbuffer.bind_group], &openness);
+        fullscreen::draw(encoder, "shade", &self.shade, &[&gbuffer.bind_group, &bind_group], &picture);
+        picture
     }
 }
 

@@ -14,7 +14,7 @@ use crate::setup::Setup;
 use crate::stage::Stage;
 use crate::statistics::Spread;
 use crate::timer::Timer;
-use crate::variant::Variant;
+use crate::variant::{Case, Variant, still_settings};
 
 /// What the record says it is.
 const SCHEMA: &str = "scumble/shot/1";
@@ -60,7 +60,8 @@ pub fn run(options: &Shot) -> Result<()> {
     let size_px = [conditions.width, conditions.height];
     let receivers = stage.receivers(size_px, 1)?;
     let mut timer = Timer::new(&stage.gpu);
-    let mut variant = Variant::new(&stage, &receivers, options.method, options.size)?;
+    let case = Case { method: options.method, size: options.size, softness: 1.0 };
+    let mut variant = Variant::new(&stage, &receivers, case, still_settings(&stage.setup))?;
     variant.settle(&stage, &receivers, &mut timer)?;
 
     let mut times: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();

@@ -8,6 +8,7 @@ use crate::gbuffer::{GBuffer, GBufferPass, target};
 use crate::geometry::Geometry;
 use crate::setup::Setup;
 use crate::shading::{LightingUniform, ShadingPass};
+use crate::timer::{Timer, Times};
 
 /// Visibility of the light, 1 lit and 0 dark.
 pub const VISIBILITY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
@@ -44,6 +45,18 @@ impl Stage {
         gbuffer.draw(&mut encoder, &self.gbuffer_pass, &self.geometry);
         self.gpu.finish(encoder)?;
         Ok(gbuffer)
+    }
+
+    /// Milliseconds of what a frame does besides its shadow: receivers and shading. Empty without timestamps.
+    pub fn time_drawing(&self, gbuffer: &GBuffer, visibility: &wgpu::Texture, timer: &mut Timer) -> Result<Times> {
+        let mut encoder = self.gpu.encoder("drawing");
+        timer.start(&mut encoder);
+        gbuffer.draw(&mut encoder, &self.gbuffer_pass, &self.geometry);
+        self.shading.draw(&self.gpu, &mut encoder, gbuffer, visibility, 1);
+        timer.mark(&mut encoder, "drawing");
+        timer.resolve(&mut encoder);
+        self.gpu.finish(encoder)?;
+        timer.read(&self.gpu)
     }
 
     /// A texture for the visibility of every sample of a G-buffer.

@@ -11,6 +11,9 @@ use crate::readback::read_buffer;
 /// More marks than any frame here sets.
 const MARKS_MAX: u32 = 32;
 
+/// Milliseconds by part of a frame, in the order of the passes.
+pub type Times = Vec<(&'static str, f64)>;
+
 /// Collects marks of one frame at a time.
 pub struct Timer {
     queries: Option<wgpu::QuerySet>,
@@ -60,7 +63,7 @@ impl Timer {
     }
 
     /// Milliseconds of each part in the order of the marks, after the frame was submitted.
-    pub fn read(&self, gpu: &Gpu) -> Result<Vec<(&'static str, f64)>> {
+    pub fn read(&self, gpu: &Gpu) -> Result<Times> {
         if self.queries.is_none() || self.parts.is_empty() {
             return Ok(Vec::new());
         }

@@ -25,7 +25,7 @@ use crate::progress::progress;
 use crate::setup::Setup;
 use crate::stage::Stage;
 use crate::timer::Timer;
-use crate::variant::Variant;
+use crate::variant::{Case, Variant, still_settings};
 use cache::{Cache, Rows};
 use record::TruthRecord;
 use source::Source;
@@ -55,13 +55,14 @@ pub fn run(options: &Truth) -> Result<()> {
     let rays = Rays::new(&stage.setup.scene);
     rays.skipped().iter().for_each(|skipped| eprintln!("warning: {skipped}"));
     let plan = if samples.of_light().is_none() {
-        let mut fitted = Variant::new(&stage, &pixels, options.method, Size::Fixed([FIT_TEXELS; 2]))?;
+        let case = Case { method: options.method, size: Size::Fixed([FIT_TEXELS; 2]), softness: 1.0 };
+        let mut fitted = Variant::new(&stage, &pixels, case, still_settings(&stage.setup))?;
         fitted.frame(&stage, &pixels, &mut Timer::new(&stage.gpu))?;
         Some(fitted.plan()?.clone())
     } else {
         None
     };
-    let filter = stage.setup.filter(options.method);
+    let filter = stage.setup.filter(options.method, 1.0);
     let source = Source::new(&rays, &stage.setup.scene.light, plan.as_ref(), filter, samples)?;
 
     let key = source.key(&stage.setup.scene.meshes, &receivers(&surfaces, conditions.width));

@@ -1,16 +1,16 @@
 //! One method at one size on a stage: the shadow map, its frames, and when an adaptive size has come to rest.
 
 use anyhow::{Context, Result};
-use scumble::scumble_core::Relation;
-use scumble::{Aabb, Counters, Options, Plan, Settings, Shadows, SizeChoice};
+use scumble::{Aabb, Counters, Filter, Options, Plan, Settings, Shadows, SizeChoice};
 
 use crate::casters::CasterPass;
 use crate::cli::{Method, Size};
 use crate::evaluation::EvaluationPass;
 use crate::gbuffer::GBuffer;
 use crate::readback::read_texture;
+use crate::setup::Setup;
 use crate::stage::Stage;
-use crate::timer::Timer;
+use crate::timer::{Timer, Times};
 
 /// More rungs than any ladder of sizes has.
 const RUNGS_ALL: u32 = 1000;
@@ -21,15 +21,32 @@ const SETTLING_FRAMES_MAX: u32 = 64;
 /// Every how many pixels, across and down, the demand pass looks at one.
 const MEASURE_STRIDE: u32 = 4;
 
-/// Milliseconds by part of a frame, in the order of the passes.
-pub type Times = Vec<(&'static str, f64)>;
-
-/// A shadow map under test.
-pub struct Variant {
-    /// How it is filtered.
+/// What is under test.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case {
+    /// How the map is filtered.
     pub method: Method,
     /// How its size is chosen.
     pub size: Size,
+    /// Times the setup's own filter radius and light size.
+    pub softness: f64,
+}
+
+/// Settings for a still picture: nothing flickers, so sizes shrink as soon and as far as the demand allows.
+pub fn still_settings(setup: &Setup) -> Settings {
+    Settings { shrink_after_frames: 1, shrink_rungs: RUNGS_ALL, ..moving_settings(setup) }
+}
+
+/// Settings for a picture that moves: the drop-in's own.
+pub fn moving_settings(setup: &Setup) -> Settings {
+    Settings { relation: setup.relation, cap: setup.cap, ..Settings::default() }
+}
+
+/// A shadow map under test.
+pub struct Variant {
+    /// What it is.
+    pub case: Case,
+    filter: Filter,
     shadows: Shadows,
     casters: CasterPass,
     evaluation: EvaluationPass,
@@ -39,28 +56,17 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// Allocates the map: at the cap for an adaptive size, as large as it is used for a fixed one.
-    pub fn new(stage: &Stage, gbuffer: &GBuffer, method: Method, size: Size) -> Result<Self> {
-        Self::with_relation(stage, gbuffer, method, size, stage.setup.relation)
-    }
-
-    /// As [`new`](Self::new), but an adaptive size is chosen by another relation than the setup's.
-    pub fn with_relation(
-        stage: &Stage,
-        gbuffer: &GBuffer,
-        method: Method,
-        size: Size,
-        relation: Relation,
-    ) -> Result<Self> {
-        let filter = stage.setup.filter(method);
+    /// Allocates the map: at the cap of `settings` or the device's for an adaptive size, as large as it is used for a
+    /// fixed one.
+    pub fn new(stage: &Stage, gbuffer: &GBuffer, case: Case, settings: Settings) -> Result<Self> {
+        let Case { method, size, softness } = case;
+        let filter = stage.setup.filter(method, softness);
         let device_limit = stage.gpu.device.limits().max_texture_dimension_2d;
         let (cap, choice) = match size {
-            Size::Adaptive => (stage.setup.cap.min(device_limit), SizeChoice::Adaptive),
+            Size::Adaptive => (settings.cap.min(device_limit), SizeChoice::Adaptive),
             Size::Fixed(texels) => (texels[0].max(texels[1]), SizeChoice::Fixed(texels)),
         };
-        // A still picture has nothing to flicker, so sizes may shrink as soon and as far as the demand allows.
-        let settings =
-            Settings { relation, cap, shrink_after_frames: 1, shrink_rungs: RUNGS_ALL, ..Settings::default() };
+        let settings = Settings { cap, ..settings };
         let options = Options { filter, size: choice, measure_stride: MEASURE_STRIDE, ..Options::default() };
         let shadows = Shadows::with_options(&stage.gpu.device, settings, options)
             .with_context(|| format!("--size {size} --method {}", method.name()))?;
@@ -68,7 +74,7 @@ impl Variant {
         let evaluation = EvaluationPass::new(&stage.gpu, &stage.gbuffer_pass.layout, &shadows, &filter);
         let visibility = stage.visibility_texture(gbuffer);
         let bounds = stage.setup.scene.bounds();
-        Ok(Self { method, size, shadows, casters, evaluation, visibility, bounds, plan: None })
+        Ok(Self { case, filter, shadows, casters, evaluation, visibility, bounds, plan: None })
     }
 
     /// Renders frames until the size rests. A fixed size rests at once; what the screen asks of it is measured, so that
@@ -99,14 +105,15 @@ impl Variant {
 
     /// Whether a frame has a demand pass.
     pub fn measures(&self) -> bool {
-        self.size == Size::Adaptive
+        self.case.size == Size::Adaptive
     }
 
     /// One frame as a renderer would do it: plan, depth pass, demand (adaptive sizes only), evaluation.
     pub fn frame(&mut self, stage: &Stage, gbuffer: &GBuffer, timer: &mut Timer) -> Result<Times> {
         let scene = &stage.setup.scene;
         self.shadows.read_demand();
-        let plan = self.shadows.plan(&scene.camera, &self.bounds, std::slice::from_ref(&scene.light))?;
+        let light = stage.setup.light(self.case.softness)?;
+        let plan = self.shadows.plan(&scene.camera, &self.bounds, &[light])?;
         self.shadows.upload(&stage.gpu.queue, &plan);
 
         let mut encoder = stage.gpu.encoder("frame");
@@ -151,8 +158,7 @@ impl Variant {
 
     /// Filter radius of every pixel under the map of the last frame, before the lower clamp, at the reference plane.
     pub fn read_radii(&self, stage: &Stage, gbuffer: &GBuffer) -> Result<Vec<f32>> {
-        let filter = stage.setup.filter(self.method);
-        let pass = EvaluationPass::of_radii(&stage.gpu, &stage.gbuffer_pass.layout, &self.shadows, &filter);
+        let pass = EvaluationPass::of_radii(&stage.gpu, &stage.gbuffer_pass.layout, &self.shadows, &self.filter);
         let radii = stage.visibility_texture(gbuffer);
         let mut encoder = stage.gpu.encoder("radii");
         pass.draw(&mut encoder, gbuffer, &self.shadows, &radii);

@@ -190,5 +190,5 @@ fn a_bench_writes_a_table_a_record_and_the_pictures_that_it_names() {
     fs::write(&old, r#"{ "schema": "scumble/bench/1" }"#).unwrap();
     let refused = viewer(&[&arguments[..], &["--against", path_text(&old)]].concat());
     let line = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(!refused.status.success() && line.contains("scumble/bench/2 is expected"), "{line}");
+    assert!(!refused.status.success() && line.contains("scumble/bench/3 is expected"), "{line}");
 }

@@ -59,6 +59,7 @@ fn conditions(old: &BenchRecord, new: &BenchRecord) -> Result<Vec<String>> {
     let alike = |options: &OptionsRecord| OptionsRecord {
         scenes: Vec::new(),
         methods: Vec::new(),
+        softness: Vec::new(),
         sizes: Vec::new(),
         sweep_ratio: false,
         ..options.clone()

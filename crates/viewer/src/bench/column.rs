@@ -10,11 +10,12 @@ use crate::bench::row::Row;
 use crate::statistics::Spread;
 
 /// The parts of a frame, as the columns name them, in words.
-const PARTS: [(&str, &str); 4] = [
+const PARTS: [(&str, &str); 5] = [
     ("depth", "depth pass of the shadow map"),
     ("demand", "demand pass, which a fixed size has not"),
     ("evaluation", "filter at every pixel"),
     ("total", "the three together"),
+    ("drawing", "receivers and shading, which no size changes"),
 ];
 
 /// The way from a row to a cell.
@@ -40,6 +41,11 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         column("scene", "name of the scene", Box::new(|row| row.key.scene.clone())),
         column("triangles", "triangles of the scene", Box::new(|row| row.triangles.to_string())),
         column("method", "filter: `none`, `pcf` or `pcss`", Box::new(|row| row.key.method.clone())),
+        column(
+            "softness",
+            "times the filter radius (pcf) or light size (pcss) of the run",
+            Box::new(|row| row.key.softness.to_string()),
+        ),
         column("size", "`adaptive`, or the fixed side or sides in texels", Box::new(|row| row.key.size.clone())),
         column("width_px", "pixels across", Box::new(move |_| width.to_string())),
         column("height_px", "pixels down", Box::new(move |_| height.to_string())),

@@ -88,7 +88,7 @@ fn violation_share(
     let camera = &stage.setup.scene.camera;
     let needed = settings.relation.radius_from_texel(view.texel_world().max_element()) * (1.0 - VIOLATION_SLACK);
     // Only PCSS widens what is narrower than its least radius.
-    let radius_least = if variant.method == Method::Pcss { view.radius_min_world } else { 0.0 };
+    let radius_least = if variant.case.method == Method::Pcss { view.radius_min_world } else { 0.0 };
     let (mut count, mut violations) = (0u64, 0u64);
     for ((surface, &radius), _) in screen.surfaces.iter().zip(radii).zip(penumbra).filter(|(_, inside)| **inside) {
         let Some(surface) = surface.filter(|_| radius > 0.0) else { continue };

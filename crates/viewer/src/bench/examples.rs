@@ -15,7 +15,7 @@ pub fn row(scene: &str, method: &str, size: &str, total_ms: f64, error: f64) -> 
     let differences = Differences { pixels: 100, max: 4.0 * error, p99: 3.0 * error, rms: error, bias: 0.0 };
     let total = Spread { median: total_ms, lower_quartile: 0.99 * total_ms, upper_quartile: 1.01 * total_ms };
     Row {
-        key: Key { scene: scene.into(), method: method.into(), size: size.into() },
+        key: Key { scene: scene.into(), method: method.into(), softness: 1.0, size: size.into() },
         triangles: 12,
         texels: size.parse::<u64>().map_or(100_000, |side| side * side),
         maps: Vec::new(),
@@ -34,6 +34,7 @@ pub fn options() -> OptionsRecord {
     OptionsRecord {
         scenes: vec!["yard".into(), "contact".into()],
         methods: vec!["pcf".into()],
+        softness: vec![1.0],
         sizes: vec!["2048".into(), "adaptive".into()],
         frames: 15,
         width: 1280,

@@ -5,7 +5,6 @@
 //! are appended and brought to the disk one by one; a last line that was cut off is dropped. The file goes when the
 //! results are written.
 
-use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -51,7 +50,7 @@ enum Entry {
 pub struct Partial {
     path: PathBuf,
     file: File,
-    times: BTreeMap<Key, Spreads>,
+    times: Vec<(Key, Spreads)>,
     timed_scenes: Vec<String>,
     rows: Vec<Row>,
     swept: Vec<(String, String)>,
@@ -79,7 +78,7 @@ impl Partial {
         let mut partial = Self {
             path,
             file,
-            times: BTreeMap::new(),
+            times: Vec::new(),
             timed_scenes: Vec::new(),
             rows: Vec::new(),
             swept: Vec::new(),
@@ -164,7 +163,7 @@ impl Partial {
 
     /// Times of a variant; none without timestamps.
     pub fn times(&self, key: &Key) -> Spreads {
-        self.times.get(key).cloned().unwrap_or_default()
+        self.times.iter().find(|(timed, _)| timed == key).map(|(_, spreads)| spreads.clone()).unwrap_or_default()
     }
 
     /// Whether a row is done.

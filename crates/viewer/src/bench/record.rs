@@ -13,7 +13,7 @@ use crate::cli::{Bench, Conditions};
 use crate::record::{MachineRecord, RatioRecord};
 
 /// What the record says it is.
-pub const SCHEMA: &str = "scumble/bench/2";
+pub const SCHEMA: &str = "scumble/bench/3";
 
 /// bench.json.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,6 +41,8 @@ pub struct OptionsRecord {
     pub scenes: Vec<String>,
     /// As the command line spells them.
     pub methods: Vec<String>,
+    /// Times the filter radius and light size.
+    pub softness: Vec<f64>,
     /// As the command line spells them.
     pub sizes: Vec<String>,
     /// Timed frames of every variant.
@@ -67,6 +69,7 @@ impl OptionsRecord {
         Self {
             scenes: scenes.to_vec(),
             methods: options.methods.iter().map(|method| method.name().to_owned()).collect(),
+            softness: options.softness.clone(),
             sizes: options.sizes.iter().map(ToString::to_string).collect(),
             frames: options.frames,
             width: conditions.width,

@@ -12,36 +12,59 @@ use crate::bench::pictures::Files;
 use crate::record::MapRecord;
 use crate::stage::Stage;
 use crate::statistics::Spread;
-use crate::variant::{Times, Variant};
+use crate::timer::Times;
+use crate::variant::{Case, Variant};
 
 /// Bytes of a texel: the maps are 32-bit depth.
 const TEXEL_BYTES: u64 = 4;
 
-/// Medians and quartiles in milliseconds by part of a frame (`depth`, `demand`, `evaluation`) and of their `total`;
-/// empty on a device without timestamps.
+/// Medians and quartiles in milliseconds by part of the shadow (`depth`, `demand`, `evaluation`), of their `total`, and of
+/// the `drawing` of the picture, which is the scene's; empty on a device without timestamps.
 pub type Spreads = BTreeMap<String, Spread>;
 
 /// What a row is about: scene, method and size as the command line spells them.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Key {
     /// Name of the scene.
     pub scene: String,
     /// `none`, `pcf` or `pcss`.
     pub method: String,
+    /// Times the filter radius (pcf) or light size (pcss) of the run.
+    pub softness: f64,
     /// `adaptive`, N or NxM.
     pub size: String,
 }
 
 impl Key {
-    /// Of a variant of a scene.
-    pub fn of(scene: &str, variant: &Variant) -> Self {
-        Self { scene: scene.into(), method: variant.method.name().into(), size: variant.size.to_string() }
+    /// Of a case in a scene.
+    pub fn of(scene: &str, case: &Case) -> Self {
+        Self {
+            scene: scene.into(),
+            method: case.method.name().into(),
+            softness: case.softness,
+            size: case.size.to_string(),
+        }
+    }
+
+    /// Whether they differ in nothing but the size.
+    pub fn is_beside(&self, other: &Self) -> bool {
+        Self { size: String::new(), ..self.clone() } == Self { size: String::new(), ..other.clone() }
+    }
+
+    /// Whether the size is chosen by the relation.
+    pub fn is_adaptive(&self) -> bool {
+        self.size == "adaptive"
+    }
+
+    /// The filter with its softness, where that is not the run's own: `pcss`, `pcss x4`.
+    pub fn filter(&self) -> String {
+        if self.softness == 1.0 { self.method.clone() } else { format!("{} x{}", self.method, self.softness) }
     }
 }
 
 impl fmt::Display for Key {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{} {} {}", self.scene, self.method, self.size)
+        write!(formatter, "{} {} {}", self.scene, self.filter(), self.size)
     }
 }
 
@@ -115,7 +138,7 @@ impl Row {
         let maps = MapRecord::of(plan, variant.cap());
         let pictures = files.into_iter().map(|(name, path)| (name.to_owned(), relative(&path, out))).collect();
         Ok(Self {
-            key: Key::of(&stage.setup.scene.name, variant),
+            key: Key::of(&stage.setup.scene.name, &variant.case),
             triangles: stage.setup.scene.triangle_count(),
             texels: plan.texels(),
             passes: maps.len() as u32 + 1 + u32::from(variant.measures()),
@@ -134,7 +157,7 @@ impl Row {
         self.maps.iter().any(|map| map.capped)
     }
 
-    /// Median milliseconds of the shadow's whole frame.
+    /// Median milliseconds of the whole shadow.
     pub fn total_ms(&self) -> Option<f64> {
         self.times_ms.get("total").map(|spread| spread.median)
     }
@@ -154,8 +177,8 @@ fn relative(path: &Path, out: &Path) -> String {
 impl fmt::Display for Row {
     /// One line for a terminal.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Key { scene, method, size } = &self.key;
-        write!(formatter, "{scene:<12} {method:<5} {size:<10} {:>9} texels", self.texels)?;
+        let Key { scene, size, .. } = &self.key;
+        write!(formatter, "{scene:<12} {:<8} {size:<10} {:>9} texels", self.key.filter(), self.texels)?;
         if let Some(total) = self.total_ms() {
             write!(formatter, "  {total:>7.1} ms")?;
         }

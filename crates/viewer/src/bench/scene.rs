@@ -16,21 +16,43 @@ use crate::progress::progress;
 use crate::stage::Stage;
 use crate::timer::Timer;
 use crate::truth::true_visibility;
-use crate::variant::Variant;
+use crate::variant::{Case, Variant, still_settings};
 
 /// Samples per pixel along x and along y of the pictures.
 const SAMPLES_PER_SIDE: u32 = 2;
 
-/// Whether nothing is left to do for a method of a scene.
-fn is_done(options: &Bench, partial: &Partial, scene: &str, method: Method) -> bool {
-    let key = |size: &Size| Key { scene: scene.into(), method: method.name().into(), size: size.to_string() };
+/// A filter with its softness; its sizes are compared with one truth.
+type Filtering = (Method, f64);
+
+/// The filters of a run. Without a filter there is no softness.
+fn filterings(options: &Bench) -> Vec<Filtering> {
+    let of_method = |&method: &Method| {
+        let count = if method == Method::None { 1 } else { options.softness.len() };
+        options.softness[..count].iter().map(move |&softness| (method, softness)).collect::<Vec<_>>()
+    };
+    options.methods.iter().flat_map(of_method).collect()
+}
+
+/// Number of rows of a scene.
+pub fn rows_of_scene(options: &Bench) -> usize {
+    filterings(options).len() * options.sizes.len()
+}
+
+/// The ratio is swept at the first softness.
+fn is_swept(options: &Bench, (_, softness): Filtering) -> bool {
+    options.sweep_ratio && Some(&softness) == options.softness.first()
+}
+
+/// Whether nothing is left to do for a filter of a scene.
+fn is_done(options: &Bench, partial: &Partial, scene: &str, (method, softness): Filtering) -> bool {
+    let key = |&size: &Size| Key::of(scene, &Case { method, size, softness });
     options.sizes.iter().all(|size| partial.has_row(&key(size)))
-        && (!options.sweep_ratio || partial.has_sweep(scene, method.name()))
+        && (!is_swept(options, (method, softness)) || partial.has_sweep(scene, method.name()))
 }
 
 /// Whether a former run has finished a scene.
 pub fn is_finished(options: &Bench, partial: &Partial, scene: &str) -> bool {
-    options.methods.iter().all(|&method| is_done(options, partial, scene, method))
+    filterings(options).into_iter().all(|filtering| is_done(options, partial, scene, filtering))
 }
 
 /// Adds to `partial` what it lacks of a scene; `rows` advances by one for each row.
@@ -42,14 +64,15 @@ pub fn bench_scene(
     rows: &ProgressBar,
 ) -> Result<()> {
     let name = stage.setup.scene.name.clone();
-    let left: Vec<Method> =
-        options.methods.iter().copied().filter(|&method| !is_done(options, partial, &name, method)).collect();
+    let left: Vec<Filtering> =
+        filterings(options).into_iter().filter(|&filtering| !is_done(options, partial, &name, filtering)).collect();
     let receivers = stage.receivers(size_px, 1)?;
     let mut timer = Timer::new(&stage.gpu);
     let mut variants = Vec::new();
-    for &method in &left {
+    for &(method, softness) in &left {
         for &size in &options.sizes {
-            let mut variant = Variant::new(stage, &receivers, method, size)?;
+            let case = Case { method, size, softness };
+            let mut variant = Variant::new(stage, &receivers, case, still_settings(&stage.setup))?;
             variant.settle(stage, &receivers, &mut timer)?;
             variants.push(variant);
         }
@@ -61,34 +84,35 @@ pub fn bench_scene(
     let screen = Screen::new(&stage.setup.scene.light, receivers.read_surfaces(&stage.gpu)?, size_px);
     let rays = Rays::new(&stage.setup.scene);
     let samples_per_side = if options.quick { 1 } else { SAMPLES_PER_SIDE };
-    for &method in &left {
-        let Some(first) = variants.iter().find(|variant| variant.method == method) else { continue };
+    for &(method, softness) in &left {
+        let is_of_filter = |variant: &Variant| (variant.case.method, variant.case.softness) == (method, softness);
+        let Some(first) = variants.iter().find(|variant| is_of_filter(variant)) else { continue };
         let plan = first.plan()?.clone();
-        let filter = stage.setup.filter(method);
+        let filter = stage.setup.filter(method, softness);
         let message = format!("{name}: truth of {}", method.name());
         let truth = true_visibility(&message, &rays, &filter, &plan, &screen.surfaces, size_px[0]);
 
-        let directory = options.out.join(directory_name(&name)).join(method.name());
+        let directory = options.out.join(directory_name(&name)).join(directory_of_filter((method, softness)));
         make_directory(&directory)?;
         let pictures = Pictures::new(stage, &directory, size_px, samples_per_side)?;
         let truth_picture = pictures.truth(&rays, &filter, &plan, &truth)?;
-        for variant in variants.iter_mut().filter(|variant| variant.method == method) {
-            let key = Key::of(&name, variant);
+        for variant in variants.iter_mut().filter(|variant| is_of_filter(variant)) {
+            let key = Key::of(&name, &variant.case);
             if partial.has_row(&key) {
                 continue;
             }
             let visibility = variant.read_visibility(stage)?;
             let radii = variant.read_radii(stage, &receivers)?;
             let comparison = compare(stage, variant, &screen, &visibility, &truth, &radii)?;
-            let label = label(variant.size, &options.sizes);
+            let label = label(variant.case.size, &options.sizes);
             let files = pictures.variant(variant, &label, &visibility, &truth, &screen.lit_facing, &truth_picture)?;
             let row = Row::new(stage, variant, partial.times(&key), comparison, files, &options.out)?;
             rows.suspend(|| println!("{row}"));
             partial.add_row(row)?;
             rows.inc(1);
         }
-        if options.sweep_ratio && !partial.has_sweep(&name, method.name()) {
-            partial.add_sweep(&name, method.name(), sweep(stage, &receivers, method, &screen, &truth)?)?;
+        if is_swept(options, (method, softness)) && !partial.has_sweep(&name, method.name()) {
+            partial.add_sweep(&name, method.name(), sweep(stage, &receivers, (method, softness), &screen, &truth)?)?;
         }
     }
     Ok(())
@@ -106,16 +130,23 @@ fn time(
     let name = &stage.setup.scene.name;
     let bar = progress(&format!("{name}: frames"), u64::from(options.frames));
     let mut timings: Vec<Timings> = variants.iter().map(|_| Timings::default()).collect();
+    let mut drawing = Timings::default();
+    let unshadowed = stage.visibility_texture(receivers);
     for _ in 0..options.frames {
         for (variant, timing) in variants.iter_mut().zip(&mut timings) {
             timing.add(&variant.frame(stage, receivers, timer)?);
         }
+        drawing.add(&stage.time_drawing(receivers, &unshadowed, timer)?);
         bar.inc(1);
     }
     bar.finish_and_clear();
-    let of_variants = variants.iter().zip(&timings);
-    let spreads = of_variants.map(|(variant, timing)| (Key::of(name, variant), timing.spreads())).collect();
-    partial.add_times(name, spreads)
+    let drawing = drawing.spreads().remove("drawing");
+    let of_variant = |(variant, timing): (&Variant, &Timings)| {
+        let mut spreads = timing.spreads();
+        spreads.extend(drawing.map(|spread| ("drawing".to_owned(), spread)));
+        (Key::of(name, &variant.case), spreads)
+    };
+    partial.add_times(name, variants.iter().zip(&timings).map(of_variant).collect())
 }
 
 /// `adaptive`, `fixed` for the largest fixed size, `fixed-512` for others.
@@ -129,6 +160,11 @@ fn label(size: Size, sizes: &[Size]) -> String {
         _ if Some(area(&size)) == sizes.iter().map(area).max() => "fixed".into(),
         _ => format!("fixed-{size}"),
     }
+}
+
+/// The folder of a filter below the scene's.
+fn directory_of_filter((method, softness): Filtering) -> String {
+    if softness == 1.0 { method.name().into() } else { format!("{}-x{softness}", method.name()) }
 }
 
 /// A scene's name as a folder's, whatever its file was called.

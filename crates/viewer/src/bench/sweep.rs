@@ -6,6 +6,7 @@
 //! end; the error goes on falling, without a person who sees it.
 
 use anyhow::Result;
+use scumble::Settings;
 use scumble::scumble_core::Relation;
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +15,7 @@ use crate::cli::{Method, Size};
 use crate::gbuffer::GBuffer;
 use crate::stage::Stage;
 use crate::timer::Timer;
-use crate::variant::Variant;
+use crate::variant::{Case, Variant, still_settings};
 
 /// Texels per filter radius, in steps of about a third of an octave from the smallest kernel that filters at all to three
 /// times the published ratio, which is among them.
@@ -45,7 +46,7 @@ pub struct SweepPoint {
 pub fn sweep(
     stage: &Stage,
     receivers: &GBuffer,
-    method: Method,
+    (method, softness): (Method, f64),
     screen: &Screen,
     truth: &[f32],
 ) -> Result<Vec<SweepPoint>> {
@@ -55,7 +56,9 @@ pub fn sweep(
     let mut timer = Timer::new(&stage.gpu);
     let point = |ratio: f64| {
         let relation = Relation::exact(ratio)?;
-        let mut variant = Variant::with_relation(stage, receivers, method, Size::Adaptive, relation)?;
+        let settings = Settings { relation, ..still_settings(&stage.setup) };
+        let case = Case { method, size: Size::Adaptive, softness };
+        let mut variant = Variant::new(stage, receivers, case, settings)?;
         variant.settle(stage, receivers, &mut timer)?;
         let visibility = variant.read_visibility(stage)?;
         let radii = variant.read_radii(stage, receivers)?;

@@ -25,13 +25,11 @@ pub struct Trade {
 
 /// Every adaptive row that has a time, an error above 0 and two fixed sizes at least to compare with.
 pub fn trades(rows: &[Row]) -> Vec<Trade> {
-    rows.iter().filter(|row| row.key.size == "adaptive").filter_map(|row| trade(row, rows)).collect()
+    rows.iter().filter(|row| row.key.is_adaptive()).filter_map(|row| trade(row, rows)).collect()
 }
 
 fn trade(row: &Row, rows: &[Row]) -> Option<Trade> {
-    let is_fixed = |other: &&Row| {
-        other.key.size != "adaptive" && other.key.scene == row.key.scene && other.key.method == row.key.method
-    };
+    let is_fixed = |other: &&Row| !other.key.is_adaptive() && other.key.is_beside(&row.key);
     let mut fixed: Vec<&Row> = rows.iter().filter(is_fixed).collect();
     fixed.sort_by_key(|row| row.texels);
     let curve: Vec<[f64; 2]> = fixed.into_iter().filter_map(logarithms).collect();
@@ -63,10 +61,9 @@ fn least_at(curve: &[[f64; 2]], x: f64) -> Option<f64> {
 
 impl fmt::Display for Trade {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Key { scene, method, .. } = &self.key;
         let words = |ratio: Option<f64>| ratio.map_or("outside of the curve".into(), |ratio| format!("x {ratio:.2}"));
         let (error, time) = (words(self.error_ratio), words(self.time_ratio));
-        write!(formatter, "{scene} {method} adaptive against fixed sizes: error at equal time {error}, ")?;
+        write!(formatter, "{} against fixed sizes: error at equal time {error}, ", self.key)?;
         write!(formatter, "time at equal error {time}")
     }
 }
