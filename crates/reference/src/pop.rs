@@ -9,7 +9,7 @@
 use crate::Error;
 
 /// Changes between consecutive frames, in shares of full light.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Pop {
     /// Frames with another size than the frame before.
     pub switches: usize,

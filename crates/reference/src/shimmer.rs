@@ -12,7 +12,7 @@ use crate::Error;
 use crate::percentile::p99;
 
 /// Standard deviations over frames, in shares of full light.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Shimmer {
     /// Points with at least two frames.
     pub points: usize,

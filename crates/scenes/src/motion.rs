@@ -78,24 +78,25 @@ impl Scene {
         self.camera_paths().into_iter().chain(self.light_paths()).find(|path| path.name == name)
     }
 
-    /// The scene with its camera, or for `sweep` its light, where `path` is at `t` in 0..=1. Only pose changes: field of
-    /// view, planes and the light's size stay.
+    /// Camera and light where `path` is at `t` in 0..=1: `sweep` moves the light, the others the camera. Only pose
+    /// changes: field of view, planes and the light's size stay.
     #[must_use]
-    pub fn moved(mut self, path: &Path, t: f64) -> Self {
-        let Some(pose) = path.at(t) else { return self };
+    pub fn moved(&self, path: &Path, t: f64) -> (Camera, Light) {
+        let (mut camera, mut light) = (self.camera, self.light);
+        let Some(pose) = path.at(t) else { return (camera, light) };
         if path.name != "sweep" {
             // The distance of the target has no meaning to a picture; kept, so that the first key is the scene's camera.
-            let distance = (self.camera.target - self.camera.eye).length();
-            self.camera.eye = pose.position;
-            self.camera.target = pose.position + distance * pose.direction;
-            return self;
+            let distance = (camera.target - camera.eye).length();
+            camera.eye = pose.position;
+            camera.target = pose.position + distance * pose.direction;
+            return (camera, light);
         }
-        match &mut self.light {
+        match &mut light {
             Light::Directional { direction, .. } => *direction = pose.direction,
             Light::Spot { position, direction, .. } => {
                 (*position, *direction) = (pose.position, pose.direction);
             }
         }
-        self
+        (camera, light)
     }
 }

@@ -10,18 +10,21 @@
 mod against;
 mod column;
 mod comparison;
+mod demand;
 mod difference;
 #[cfg(test)]
 mod examples;
 mod partial;
 mod pictures;
 mod record;
+mod report;
 mod row;
 mod scene;
 mod sweep;
 mod trade;
+mod walk;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
 
@@ -29,7 +32,8 @@ use crate::bench::against::changes;
 use crate::bench::column::{descriptions, table};
 use crate::bench::partial::{Header, Partial};
 use crate::bench::record::{BenchRecord, OptionsRecord, SCHEMA};
-use crate::bench::scene::{bench_scene, is_finished, rows_of_scene};
+use crate::bench::report::{REPORT_MARK, report};
+use crate::bench::scene::{bench_scene, is_finished, rows_of_scene, walk_scene};
 use crate::bench::trade::trades;
 use crate::cli::{Bench, Conditions};
 use crate::device::Gpu;
@@ -43,6 +47,7 @@ use crate::stage::Stage;
 struct Results {
     table: PathBuf,
     record: PathBuf,
+    report: PathBuf,
 }
 
 /// Runs the command.
@@ -58,6 +63,7 @@ pub fn run(options: &Bench) -> Result<()> {
     let results = Results {
         table: claim(&options.out.join("bench.csv"), Kind::Csv)?,
         record: claim(&options.out.join("bench.json"), Kind::Json(SCHEMA))?,
+        report: claim(&options.out.join("report.html"), Kind::Html(REPORT_MARK))?,
     };
     let gpu = Gpu::open()?;
     let machine = MachineRecord::of(&gpu);
@@ -73,8 +79,10 @@ pub fn run(options: &Bench) -> Result<()> {
     for setup in
         setups.into_iter().filter(|setup| !is_finished(options, &partial, &setup.scene.name)).collect::<Vec<_>>()
     {
-        let stage = Stage::new(gpu.clone(), setup)?;
-        bench_scene(options, [conditions.width, conditions.height], &stage, &mut partial, &rows)?;
+        let mut stage = Stage::new(gpu.clone(), setup)?;
+        let size_px = [conditions.width, conditions.height];
+        bench_scene(options, size_px, &stage, &mut partial, &rows)?;
+        walk_scene(options, size_px, &mut stage, &mut partial)?;
     }
     rows.finish_and_clear();
 
@@ -86,16 +94,29 @@ pub fn run(options: &Bench) -> Result<()> {
         columns: descriptions(&asked),
         options: asked,
         rows: partial.rows().to_vec(),
+        demand: partial.demand().to_vec(),
+        walks: partial.walks().to_vec(),
         sweep: partial.sweep().to_vec(),
     };
     write(&results.table, table(&record.options, &record.rows)?.as_bytes())?;
     write_json(&results.record, &record)?;
+    write(&results.report, report(&record, &options.out)?.as_bytes())?;
     partial.remove()?;
     trades(&record.rows).iter().for_each(|trade| println!("{trade}"));
     println!("{}, {}", results.table.display(), results.record.display());
+    println!("Report: {}", results.report.display());
     if let Some(old) = old {
         println!("{}", changes(&old, &record)?);
     }
+    Ok(())
+}
+
+/// Makes the report of a folder's record anew.
+pub fn remake_report(folder: &Path) -> Result<()> {
+    let record = BenchRecord::read(&folder.join("bench.json"))?;
+    let path = claim(&folder.join("report.html"), Kind::Html(REPORT_MARK))?;
+    write(&path, report(&record, folder)?.as_bytes())?;
+    println!("Report: {}", path.display());
     Ok(())
 }
 

@@ -12,7 +12,7 @@ Examples:
   scumble-viewer shot --scene path/to/model.glb --method pcf --size 2048 --radius 0.05 --out model.png
       a scene of your own under a fixed map of 2048 x 2048 texels
   scumble-viewer bench --scenes stairwell --methods pcf,pcss --sizes 512,2048,adaptive --out results
-      times, texels and errors against ground truth: results/bench.csv, bench.json and pictures
+      times, texels and errors against ground truth: results/report.html, bench.csv, bench.json and pictures
   scumble-viewer truth --scene stairwell --method pcss --out truth.png
       the same filter over an alias-free shadow, by rays on the processor: truth.png, .npy and .json
   scumble-viewer truth --scene stairwell --truth light --samples 256 --out light.png
@@ -36,6 +36,12 @@ pub enum Command {
     Shot(Shot),
     /// Compare sizes: times, texels, bytes, taps and error against ground truth
     Bench(Bench),
+    /// Make report.html of a former bench anew
+    Report {
+        /// The folder with bench.json and the pictures
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
     /// Ground truth by rays on the processor: the filter over an alias-free shadow, or the light itself
     Truth(Truth),
     /// List the scenes of the catalogue
@@ -51,7 +57,7 @@ pub struct Shot {
     /// How shadows are filtered
     #[arg(long, value_enum, default_value_t = Method::Pcss)]
     pub method: Method,
-    /// Texels of the shadow map: `adaptive`, N for N x N, or NxM
+    /// Texels of the shadow map: `adaptive`, N for N x N, or NxM; with `+blocks`, see bench
     #[arg(long, default_value = "adaptive", value_name = "adaptive|N[xM]")]
     pub size: Size,
     /// Samples per pixel along x and along y
@@ -74,7 +80,8 @@ pub struct Bench {
     /// How soft, separated by commas: times the radius of pcf and the size of the light for pcss
     #[arg(long, value_delimiter = ',', default_value = "1", value_name = "F,F", value_parser = positive)]
     pub softness: Vec<f64>,
-    /// Sizes, separated by commas: `adaptive`, N or NxM
+    /// Sizes, separated by commas: `adaptive`, N or NxM. N+blocks is a fixed size with the pass of an adaptive one that
+    /// tells where one lookup is enough, so that what it saves and what the size saves can be told apart
     #[arg(long, value_delimiter = ',', default_value = "2048,adaptive", value_name = "N,adaptive")]
     pub sizes: Vec<Size>,
     /// Timed frames of every variant; the variants take turns
@@ -83,13 +90,17 @@ pub struct Bench {
     /// Light, softness, relation and picture size
     #[command(flatten)]
     pub conditions: Conditions,
-    /// The directory for bench.csv, bench.json and the pictures; made if missing. A run that was killed goes on
+    /// The directory for report.html, bench.csv, bench.json and the pictures; made if missing. A run that was killed goes on
     /// when it is started again with the same options
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Half the width and height, one sample per pixel in the pictures
     #[arg(long)]
     pub quick: bool,
+    /// Besides, adaptive maps while camera or light moves, and the largest fixed ones beside them: size, time, and what
+    /// changes at fixed points. Paths, separated by commas
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "P,P")]
+    pub paths: Vec<Motion>,
     /// Besides, adaptive maps chosen by ratios from 0.5 to 10: how error and violation depend on it
     #[arg(long)]
     pub sweep_ratio: bool,
@@ -205,6 +216,31 @@ impl Method {
     }
 }
 
+/// A path of camera or light, which every scene has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Motion {
+    /// The camera goes a third of the way to what it looks at
+    Approach,
+    /// The camera turns to both sides in place
+    Pan,
+    /// The camera moves sideways by less than a texel a frame
+    Creep,
+    /// The light moves: a sun about the vertical, a lamp as a pendulum
+    Sweep,
+}
+
+impl Motion {
+    /// As the command line spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Approach => "approach",
+            Self::Pan => "pan",
+            Self::Creep => "creep",
+            Self::Sweep => "sweep",
+        }
+    }
+}
+
 /// How large a shadow map is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
@@ -212,10 +248,32 @@ pub enum Size {
     Adaptive,
     /// Texels across and down.
     Fixed([u32; 2]),
+    /// Fixed, but with the demand pass of an adaptive map, which tells where one lookup is enough.
+    Blocks([u32; 2]),
+}
+
+impl Size {
+    /// The fixed size of this list that an adaptive one is set beside: 2048 x 2048, which most renderers' settings call
+    /// high, else the one of the most texels.
+    pub fn beside(sizes: &[Self]) -> Option<Self> {
+        let usual = Self::Fixed([2048; 2]);
+        let fixed = sizes.iter().copied().filter(|size| matches!(size, Self::Fixed(_)));
+        if sizes.contains(&usual) { Some(usual) } else { fixed.max_by_key(Self::texels) }
+    }
+
+    /// Texels of a fixed size; 0 for an adaptive one, which has them from the screen.
+    pub fn texels(&self) -> u64 {
+        match self {
+            Self::Adaptive => 0,
+            Self::Fixed([across, down]) | Self::Blocks([across, down]) => u64::from(*across) * u64::from(*down),
+        }
+    }
 }
 
 /// Largest side of a fixed map; the device may allow less and says so.
 const SIDE_MAX: u32 = 16_384;
+/// How a fixed size with blocks ends.
+const BLOCKS: &str = "+blocks";
 /// Smallest side of a fixed map: the floor of adaptive ones.
 const SIDE_MIN: u32 = 8;
 
@@ -227,10 +285,17 @@ impl FromStr for Size {
             return Ok(Self::Adaptive);
         }
         let side = |part: &str| part.parse().ok().filter(|side| (SIDE_MIN..=SIDE_MAX).contains(side));
-        let (across, down) = text.split_once('x').unwrap_or((text, text));
+        let (sides, has_blocks) = match text.strip_suffix(BLOCKS) {
+            Some(sides) => (sides, true),
+            None => (text, false),
+        };
+        let (across, down) = sides.split_once('x').unwrap_or((sides, sides));
         match (side(across), side(down)) {
+            (Some(across), Some(down)) if has_blocks => Ok(Self::Blocks([across, down])),
             (Some(across), Some(down)) => Ok(Self::Fixed([across, down])),
-            _ => Err(format!("allowed are `adaptive`, N or NxM with sides of {SIDE_MIN} to {SIDE_MAX} texels")),
+            _ => Err(format!(
+                "allowed are `adaptive`, N, NxM, N{BLOCKS} or NxM{BLOCKS} with sides of {SIDE_MIN} to {SIDE_MAX} texels"
+            )),
         }
     }
 }
@@ -241,6 +306,7 @@ impl std::fmt::Display for Size {
             Self::Adaptive => formatter.write_str("adaptive"),
             Self::Fixed([across, down]) if across == down => write!(formatter, "{across}"),
             Self::Fixed([across, down]) => write!(formatter, "{across}x{down}"),
+            Self::Blocks(sides) => write!(formatter, "{}{BLOCKS}", Self::Fixed(*sides)),
         }
     }
 }
@@ -276,14 +342,27 @@ mod tests {
 
     #[test]
     fn sizes_are_read_as_they_are_written() {
-        for text in ["adaptive", "2048", "512x448"] {
+        for text in ["adaptive", "2048", "512x448", "2048+blocks", "512x448+blocks"] {
             assert_eq!(text.parse::<Size>().map(|size| size.to_string()), Ok(text.to_owned()));
         }
     }
 
     #[test]
     fn a_size_that_is_none_is_refused_with_what_is_allowed() {
-        for text in ["", "x", "7", "512x", "x512", "16385", "-512", "512x512x512", "1e3", "Adaptive"] {
+        for text in [
+            "",
+            "x",
+            "7",
+            "512x",
+            "x512",
+            "16385",
+            "-512",
+            "512x512x512",
+            "1e3",
+            "Adaptive",
+            "+blocks",
+            "adaptive+blocks",
+        ] {
             let refused = text.parse::<Size>().expect_err(text);
             assert!(refused.contains("8 to 16384"), "{refused}");
         }

@@ -15,24 +15,28 @@ pub struct EvaluationPass {
     pipeline: wgpu::RenderPipeline,
 }
 
+/// What is written of every receiver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Output {
+    /// Share of the light that arrives.
+    Visibility,
+    /// Radius of the filter before its lower clamp.
+    Radius,
+}
+
 impl EvaluationPass {
-    /// Visibility, with the filter as a constant for the compiler to fold.
-    pub fn new(gpu: &Gpu, gbuffer_layout: &wgpu::BindGroupLayout, shadows: &Shadows, filter: &Filter) -> Self {
-        Self::of_entry_point("evaluate", gpu, gbuffer_layout, shadows, filter)
-    }
-
-    /// The radius of the filter instead of its result.
-    pub fn of_radii(gpu: &Gpu, gbuffer_layout: &wgpu::BindGroupLayout, shadows: &Shadows, filter: &Filter) -> Self {
-        Self::of_entry_point("radius", gpu, gbuffer_layout, shadows, filter)
-    }
-
-    fn of_entry_point(
-        entry_point: &str,
+    /// The filter is a constant for the compiler to fold.
+    pub fn new(
+        output: Output,
         gpu: &Gpu,
         gbuffer_layout: &wgpu::BindGroupLayout,
         shadows: &Shadows,
         filter: &Filter,
     ) -> Self {
+        let entry_point = match output {
+            Output::Visibility => "evaluate",
+            Output::Radius => "radius",
+        };
         let source = [
             include_str!("../shader/gbuffer_read.wgsl"),
             &shadow_wgsl(SHADOW_GROUP),

@@ -18,6 +18,7 @@ mod gbuffer;
 mod geometry;
 mod npy;
 mod output;
+mod pipelines;
 mod progress;
 mod readback;
 mod record;
@@ -57,6 +58,7 @@ fn run(cli: Cli) -> Result<()> {
         None => Ok(Cli::command().print_long_help()?),
         Some(Command::Shot(options)) => shot::run(&options),
         Some(Command::Bench(options)) => bench::run(&options),
+        Some(Command::Report { folder }) => bench::remake_report(&folder),
         Some(Command::Truth(options)) => truth::run(&options),
         Some(Command::Scenes) => {
             for entry in scumble_scenes::catalogue() {

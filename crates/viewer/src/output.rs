@@ -17,6 +17,8 @@ pub enum Kind {
     Json(&'static str),
     /// A table whose first column is `scene`.
     Csv,
+    /// A page with this mark of the command that writes it.
+    Html(&'static str),
     /// An array for NumPy, described by the JSON file of the same name.
     Npy,
 }
@@ -27,6 +29,7 @@ impl Kind {
             Self::Png => "png",
             Self::Json(_) => "json",
             Self::Csv => "csv",
+            Self::Html(_) => "html",
             Self::Npy => "npy",
         }
     }
@@ -36,6 +39,7 @@ impl Kind {
         match self {
             Self::Png => bytes.starts_with(b"\x89PNG\r\n\x1a\n"),
             Self::Csv => bytes.starts_with(b"scene,"),
+            Self::Html(mark) => String::from_utf8_lossy(bytes).contains(mark),
             // NAME.npy and NAME.se.npy have the record NAME.json.
             Self::Npy => {
                 let named = path.with_extension("");

@@ -28,6 +28,12 @@ pub struct MapRecord {
 }
 
 impl MapRecord {
+    /// The longer side of a texel, metres at the reference plane.
+    pub fn texel_world(&self) -> f64 {
+        let side = |axis: usize| self.extent_world[axis] / f64::from(self.viewport[axis + 2].max(1));
+        side(0).max(side(1))
+    }
+
     /// The maps of a plan in a texture of `cap` texels a side.
     pub fn of(plan: &Plan, cap: u32) -> Vec<Self> {
         plan.views().iter().map(|view| Self::of_view(view, cap)).collect()

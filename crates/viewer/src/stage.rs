@@ -6,6 +6,7 @@ use image::RgbImage;
 use crate::device::Gpu;
 use crate::gbuffer::{GBuffer, GBufferPass, target};
 use crate::geometry::Geometry;
+use crate::pipelines::Pipelines;
 use crate::setup::Setup;
 use crate::shading::{LightingUniform, ShadingPass};
 use crate::timer::{Timer, Times};
@@ -23,6 +24,8 @@ pub struct Stage {
     pub geometry: Geometry,
     /// Draws receivers.
     pub gbuffer_pass: GBufferPass,
+    /// What all maps are drawn and read with.
+    pub pipelines: Pipelines,
     shading: ShadingPass,
 }
 
@@ -32,7 +35,7 @@ impl Stage {
         let geometry = Geometry::upload(&gpu, &setup.scene)?;
         let gbuffer_pass = GBufferPass::new(&gpu);
         let shading = ShadingPass::new(&gpu, &gbuffer_pass);
-        Ok(Self { gpu, setup, geometry, gbuffer_pass, shading })
+        Ok(Self { gpu, setup, geometry, gbuffer_pass, pipelines: Pipelines::default(), shading })
     }
 
     /// Draws the receivers of a picture of `size_px` with `samples_per_side`^2 samples per pixel.

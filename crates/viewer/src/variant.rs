@@ -1,11 +1,13 @@
 //! One method at one size on a stage: the shadow map, its frames, and when an adaptive size has come to rest.
 
+use std::rc::Rc;
+
 use anyhow::{Context, Result};
 use scumble::{Aabb, Counters, Filter, Options, Plan, Settings, Shadows, SizeChoice};
 
 use crate::casters::CasterPass;
 use crate::cli::{Method, Size};
-use crate::evaluation::EvaluationPass;
+use crate::evaluation::{EvaluationPass, Output};
 use crate::gbuffer::GBuffer;
 use crate::readback::read_texture;
 use crate::setup::Setup;
@@ -14,10 +16,10 @@ use crate::timer::{Timer, Times};
 
 /// More rungs than any ladder of sizes has.
 const RUNGS_ALL: u32 = 1000;
-/// Frames without a change of size after which it counts as settled: more than a readback takes to arrive.
-const SETTLED_FRAMES: u32 = 4;
-/// Frames after which a size that still changes is taken as it is.
-const SETTLING_FRAMES_MAX: u32 = 64;
+/// Frames that a change of size may be late: more than a readback takes to arrive.
+const LATE_FRAMES: u32 = 4;
+/// Changes of size after which one that still changes is taken as it is.
+const SETTLING_CHANGES_MAX: u32 = 8;
 /// Every how many pixels, across and down, the demand pass looks at one.
 const MEASURE_STRIDE: u32 = 4;
 
@@ -48,8 +50,8 @@ pub struct Variant {
     pub case: Case,
     filter: Filter,
     shadows: Shadows,
-    casters: CasterPass,
-    evaluation: EvaluationPass,
+    casters: Rc<CasterPass>,
+    evaluation: Rc<EvaluationPass>,
     visibility: wgpu::Texture,
     bounds: Aabb,
     plan: Option<Plan>,
@@ -64,14 +66,15 @@ impl Variant {
         let device_limit = stage.gpu.device.limits().max_texture_dimension_2d;
         let (cap, choice) = match size {
             Size::Adaptive => (settings.cap.min(device_limit), SizeChoice::Adaptive),
-            Size::Fixed(texels) => (texels[0].max(texels[1]), SizeChoice::Fixed(texels)),
+            Size::Fixed(texels) | Size::Blocks(texels) => (texels[0].max(texels[1]), SizeChoice::Fixed(texels)),
         };
         let settings = Settings { cap, ..settings };
         let options = Options { filter, size: choice, measure_stride: MEASURE_STRIDE, ..Options::default() };
         let shadows = Shadows::with_options(&stage.gpu.device, settings, options)
             .with_context(|| format!("--size {size} --method {}", method.name()))?;
-        let casters = CasterPass::new(&stage.gpu, &shadows);
-        let evaluation = EvaluationPass::new(&stage.gpu, &stage.gbuffer_pass.layout, &shadows, &filter);
+        let casters = stage.pipelines.casters(&stage.gpu, &shadows);
+        let layout = &stage.gbuffer_pass.layout;
+        let evaluation = stage.pipelines.evaluation(Output::Visibility, &stage.gpu, layout, &shadows, &filter);
         let visibility = stage.visibility_texture(gbuffer);
         let bounds = stage.setup.scene.bounds();
         Ok(Self { case, filter, shadows, casters, evaluation, visibility, bounds, plan: None })
@@ -86,12 +89,13 @@ impl Variant {
         }
         let mut sizes = Vec::new();
         let mut unchanged = 0;
-        for _ in 0..SETTLING_FRAMES_MAX {
+        let patience = self.settings().shrink_after_frames + LATE_FRAMES;
+        for _ in 0..SETTLING_CHANGES_MAX * patience {
             self.frame(stage, gbuffer, timer)?;
             let next: Vec<_> = self.plan()?.views().iter().map(|view| view.size_texels).collect();
             unchanged = if next == sizes { unchanged + 1 } else { 0 };
             sizes = next;
-            if unchanged == SETTLED_FRAMES {
+            if unchanged == patience {
                 break;
             }
         }
@@ -105,7 +109,7 @@ impl Variant {
 
     /// Whether a frame has a demand pass.
     pub fn measures(&self) -> bool {
-        self.case.size == Size::Adaptive
+        !matches!(self.case.size, Size::Fixed(_))
     }
 
     /// One frame as a renderer would do it: plan, depth pass, demand (adaptive sizes only), evaluation.
@@ -158,7 +162,8 @@ impl Variant {
 
     /// Filter radius of every pixel under the map of the last frame, before the lower clamp, at the reference plane.
     pub fn read_radii(&self, stage: &Stage, gbuffer: &GBuffer) -> Result<Vec<f32>> {
-        let pass = EvaluationPass::of_radii(&stage.gpu, &stage.gbuffer_pass.layout, &self.shadows, &self.filter);
+        let layout = &stage.gbuffer_pass.layout;
+        let pass = stage.pipelines.evaluation(Output::Radius, &stage.gpu, layout, &self.shadows, &self.filter);
         let radii = stage.visibility_texture(gbuffer);
         let mut encoder = stage.gpu.encoder("radii");
         pass.draw(&mut encoder, gbuffer, &self.shadows, &radii);

@@ -61,6 +61,7 @@ fn conditions(old: &BenchRecord, new: &BenchRecord) -> Result<Vec<String>> {
         methods: Vec::new(),
         softness: Vec::new(),
         sizes: Vec::new(),
+        paths: Vec::new(),
         sweep_ratio: false,
         ..options.clone()
     };

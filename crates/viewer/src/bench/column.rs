@@ -46,7 +46,11 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
             "times the filter radius (pcf) or light size (pcss) of the run",
             Box::new(|row| row.key.softness.to_string()),
         ),
-        column("size", "`adaptive`, or the fixed side or sides in texels", Box::new(|row| row.key.size.clone())),
+        column(
+            "size",
+            "`adaptive`, or the fixed side or sides in texels; with `+blocks` filters are skipped as by adaptive maps",
+            Box::new(|row| row.key.size.clone()),
+        ),
         column("width_px", "pixels across", Box::new(move |_| width.to_string())),
         column("height_px", "pixels down", Box::new(move |_| height.to_string())),
         column("map_width", "texels across of the first map's part in use", Box::new(|row| viewport(row, 2))),

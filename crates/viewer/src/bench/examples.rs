@@ -40,6 +40,7 @@ pub fn options() -> OptionsRecord {
         width: 1280,
         height: 720,
         quick: false,
+        paths: Vec::new(),
         sweep_ratio: false,
         cap: 1024,
         light_size: None,
@@ -64,6 +65,8 @@ pub fn record(rows: Vec<Row>) -> BenchRecord {
         options: options(),
         columns: Vec::new(),
         rows,
+        demand: Vec::new(),
+        walks: Vec::new(),
         sweep: Vec::new(),
     }
 }

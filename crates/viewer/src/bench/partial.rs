@@ -1,7 +1,7 @@
 //! bench.partial.jsonl: what a run has finished so far, so that one that was killed goes on.
 //!
 //! The first line says what was asked for and on which machine; a run of anything else is refused. After it, one line
-//! for each thing that is done: the times of a scene, whose variants took turns, each row, each sweep of a method. Lines
+//! for each thing that is done: the times of a scene, whose variants took turns, each row, sweep, path. Lines
 //! are appended and brought to the disk one by one; a last line that was cut off is dropped. The file goes when the
 //! results are written.
 
@@ -12,10 +12,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 
+use crate::bench::demand::DemandHistogram;
 use crate::bench::difference::differences;
 use crate::bench::record::OptionsRecord;
 use crate::bench::row::{Key, Row, Spreads};
 use crate::bench::sweep::SweepPoint;
+use crate::bench::walk::Walk;
 use crate::record::{MachineRecord, RatioRecord};
 
 /// What the first line says the file is.
@@ -43,6 +45,8 @@ impl Header {
 enum Entry {
     Times { scene: String, variants: Vec<(Key, Spreads)> },
     Row(Box<Row>),
+    Demand(DemandHistogram),
+    Walk(Box<Walk>),
     Sweep { scene: String, method: String, points: Vec<SweepPoint> },
 }
 
@@ -53,6 +57,8 @@ pub struct Partial {
     times: Vec<(Key, Spreads)>,
     timed_scenes: Vec<String>,
     rows: Vec<Row>,
+    demand: Vec<DemandHistogram>,
+    walks: Vec<Walk>,
     swept: Vec<(String, String)>,
     sweep: Vec<SweepPoint>,
 }
@@ -81,6 +87,8 @@ impl Partial {
             times: Vec::new(),
             timed_scenes: Vec::new(),
             rows: Vec::new(),
+            demand: Vec::new(),
+            walks: Vec::new(),
             swept: Vec::new(),
             sweep: Vec::new(),
         };
@@ -121,6 +129,8 @@ impl Partial {
                 self.times.extend(variants);
             }
             Entry::Row(row) => self.rows.push(*row),
+            Entry::Demand(histogram) => self.demand.push(histogram),
+            Entry::Walk(walk) => self.walks.push(*walk),
             Entry::Sweep { scene, method, points } => {
                 self.swept.push((scene, method));
                 self.sweep.extend(points);
@@ -151,6 +161,16 @@ impl Partial {
         self.add(Entry::Row(Box::new(row)))
     }
 
+    /// Keeps a histogram of the demand.
+    pub fn add_demand(&mut self, histogram: DemandHistogram) -> Result<()> {
+        self.add(Entry::Demand(histogram))
+    }
+
+    /// Keeps a path.
+    pub fn add_walk(&mut self, walk: Walk) -> Result<()> {
+        self.add(Entry::Walk(Box::new(walk)))
+    }
+
     /// Keeps the sweep of a method.
     pub fn add_sweep(&mut self, scene: &str, method: &str, points: Vec<SweepPoint>) -> Result<()> {
         self.add(Entry::Sweep { scene: scene.into(), method: method.into(), points })
@@ -171,6 +191,16 @@ impl Partial {
         self.rows.iter().any(|row| row.key == *key)
     }
 
+    /// Whether the demand on a map, of any size, has been counted.
+    pub fn has_demand(&self, key: &Key) -> bool {
+        self.demand.iter().any(|histogram| histogram.key.is_beside(key))
+    }
+
+    /// Whether a path is done.
+    pub fn has_walk(&self, key: &Key, path: &str) -> bool {
+        self.walks.iter().any(|walk| walk.key == *key && walk.path == path)
+    }
+
     /// Whether a sweep is done.
     pub fn has_sweep(&self, scene: &str, method: &str) -> bool {
         self.swept.iter().any(|(swept, by)| swept == scene && by == method)
@@ -179,6 +209,16 @@ impl Partial {
     /// Rows that are done.
     pub fn rows(&self) -> &[Row] {
         &self.rows
+    }
+
+    /// Histograms of the demand, by scene and filter.
+    pub fn demand(&self) -> &[DemandHistogram] {
+        &self.demand
+    }
+
+    /// Paths that are done.
+    pub fn walks(&self) -> &[Walk] {
+        &self.walks
     }
 
     /// Points of all sweeps that are done.

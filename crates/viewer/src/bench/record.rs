@@ -7,8 +7,10 @@ use anyhow::{Context, Result, anyhow, bail};
 use serde::{Deserialize, Serialize};
 
 use crate::bench::column::Description;
+use crate::bench::demand::DemandHistogram;
 use crate::bench::row::Row;
 use crate::bench::sweep::SweepPoint;
+use crate::bench::walk::Walk;
 use crate::cli::{Bench, Conditions};
 use crate::record::{MachineRecord, RatioRecord};
 
@@ -30,6 +32,10 @@ pub struct BenchRecord {
     pub columns: Vec<Description>,
     /// By scene, method and size.
     pub rows: Vec<Row>,
+    /// The texels that the screen asks for, by scene and soft filter.
+    pub demand: Vec<DemandHistogram>,
+    /// By scene, filter and path; empty unless asked for.
+    pub walks: Vec<Walk>,
     /// By scene, method and ratio; empty unless it was asked for.
     pub sweep: Vec<SweepPoint>,
 }
@@ -53,6 +59,8 @@ pub struct OptionsRecord {
     pub height: u32,
     /// One sample per pixel in the pictures.
     pub quick: bool,
+    /// Paths of camera and light.
+    pub paths: Vec<String>,
     /// Whether the ratio was varied, too.
     pub sweep_ratio: bool,
     /// Most texels per side of an adaptive map.
@@ -75,6 +83,7 @@ impl OptionsRecord {
             width: conditions.width,
             height: conditions.height,
             quick: options.quick,
+            paths: options.paths.iter().map(|path| path.name().to_owned()).collect(),
             sweep_ratio: options.sweep_ratio,
             cap: conditions.cap,
             light_size: conditions.light_size,

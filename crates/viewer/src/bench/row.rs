@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::comparison::Comparison;
 use crate::bench::pictures::Files;
+use crate::cli::Size;
 use crate::record::MapRecord;
 use crate::stage::Stage;
 use crate::statistics::Spread;
@@ -51,9 +52,19 @@ impl Key {
         Self { size: String::new(), ..self.clone() } == Self { size: String::new(), ..other.clone() }
     }
 
+    /// The size, unless the record was written by hand.
+    pub fn size(&self) -> Option<Size> {
+        self.size.parse().ok()
+    }
+
     /// Whether the size is chosen by the relation.
     pub fn is_adaptive(&self) -> bool {
-        self.size == "adaptive"
+        self.size() == Some(Size::Adaptive)
+    }
+
+    /// Whether the size is fixed and the filter runs at every pixel.
+    pub fn is_fixed(&self) -> bool {
+        matches!(self.size(), Some(Size::Fixed(_)))
     }
 
     /// The filter with its softness, where that is not the run's own: `pcss`, `pcss x4`.
@@ -155,6 +166,13 @@ impl Row {
     /// Whether the screen asks for more texels than the map has.
     pub fn is_capped(&self) -> bool {
         self.maps.iter().any(|map| map.capped)
+    }
+
+    /// Sides of the maps: `677 x 440`, `512 x 512 + 300 x 280`.
+    pub fn sizes_words(&self) -> String {
+        let sides: Vec<String> =
+            self.maps.iter().map(|map| format!("{} x {}", map.viewport[2], map.viewport[3])).collect();
+        sides.join(" + ")
     }
 
     /// Median milliseconds of the whole shadow.

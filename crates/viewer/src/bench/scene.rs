@@ -2,14 +2,16 @@
 
 use anyhow::Result;
 use indicatif::ProgressBar;
-use scumble_reference::Rays;
+use scumble_reference::{Rays, penumbra};
 
 use crate::bench::comparison::{Screen, compare};
+use crate::bench::demand::DemandHistogram;
 use crate::bench::partial::Partial;
 use crate::bench::pictures::Pictures;
 use crate::bench::row::{Key, Row, Timings};
 use crate::bench::sweep::sweep;
-use crate::cli::{Bench, Method, Size};
+use crate::bench::walk::walk;
+use crate::cli::{Bench, Method, Motion, Size};
 use crate::gbuffer::GBuffer;
 use crate::output::make_directory;
 use crate::progress::progress;
@@ -43,16 +45,35 @@ fn is_swept(options: &Bench, (_, softness): Filtering) -> bool {
     options.sweep_ratio && Some(&softness) == options.softness.first()
 }
 
-/// Whether nothing is left to do for a filter of a scene.
+/// Whether the pictures of a filter in a scene leave nothing to do.
 fn is_done(options: &Bench, partial: &Partial, scene: &str, (method, softness): Filtering) -> bool {
     let key = |&size: &Size| Key::of(scene, &Case { method, size, softness });
-    options.sizes.iter().all(|size| partial.has_row(&key(size)))
+    options.sizes.iter().all(|size| partial.has_row(&key(size)) && partial.has_demand(&key(size)))
         && (!is_swept(options, (method, softness)) || partial.has_sweep(scene, method.name()))
+}
+
+/// The paths that a scene lacks, with the adaptive case that takes them.
+fn walks_left(options: &Bench, partial: &Partial, scene: &str) -> Vec<(Case, Motion)> {
+    let soft = options.methods.iter().filter(|&&method| method != Method::None);
+    let cases = soft
+        .flat_map(|&method| options.softness.first().map(|&softness| Case { method, size: Size::Adaptive, softness }));
+    let walks = cases.flat_map(|case| options.paths.iter().map(move |&motion| (case, motion)));
+    walks.filter(|(case, motion)| !partial.has_walk(&Key::of(scene, case), motion.name())).collect()
 }
 
 /// Whether a former run has finished a scene.
 pub fn is_finished(options: &Bench, partial: &Partial, scene: &str) -> bool {
     filterings(options).into_iter().all(|filtering| is_done(options, partial, scene, filtering))
+        && walks_left(options, partial, scene).is_empty()
+}
+
+/// The paths that a scene lacks.
+pub fn walk_scene(options: &Bench, size_px: [u32; 2], stage: &mut Stage, partial: &mut Partial) -> Result<()> {
+    let name = stage.setup.scene.name.clone();
+    for (case, motion) in walks_left(options, partial, &name) {
+        partial.add_walk(walk(stage, size_px, case, Size::beside(&options.sizes), motion)?)?;
+    }
+    Ok(())
 }
 
 /// Adds to `partial` what it lacks of a scene; `rows` advances by one for each row.
@@ -111,6 +132,15 @@ pub fn bench_scene(
             partial.add_row(row)?;
             rows.inc(1);
         }
+        let measuring =
+            variants.iter().filter(|variant| is_of_filter(variant)).max_by_key(|variant| variant.case.size.texels());
+        if let Some(variant) = measuring
+            && !partial.has_demand(&Key::of(&name, &variant.case))
+        {
+            let radii = variant.read_radii(stage, &receivers)?;
+            let penumbra = penumbra(&truth, &screen.lit_facing)?;
+            partial.add_demand(DemandHistogram::of(stage, variant, &screen, &penumbra, &radii)?)?;
+        }
         if is_swept(options, (method, softness)) && !partial.has_sweep(&name, method.name()) {
             partial.add_sweep(&name, method.name(), sweep(stage, &receivers, (method, softness), &screen, &truth)?)?;
         }
@@ -149,15 +179,11 @@ fn time(
     partial.add_times(name, variants.iter().zip(&timings).map(of_variant).collect())
 }
 
-/// `adaptive`, `fixed` for the largest fixed size, `fixed-512` for others.
+/// `adaptive`, `fixed` for the fixed size beside it, `fixed-512` for others.
 fn label(size: Size, sizes: &[Size]) -> String {
-    let area = |size: &Size| match size {
-        Size::Fixed([across, down]) => u64::from(*across) * u64::from(*down),
-        Size::Adaptive => 0,
-    };
     match size {
         Size::Adaptive => "adaptive".into(),
-        _ if Some(area(&size)) == sizes.iter().map(area).max() => "fixed".into(),
+        _ if Some(size) == Size::beside(sizes) => "fixed".into(),
         _ => format!("fixed-{size}"),
     }
 }

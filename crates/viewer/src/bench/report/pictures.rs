@@ -1,0 +1,71 @@
+//! Pictures in place: the fixed map, the adaptive one, the truth and where each is wrong, one over the other, so that an eye
+//! that rests sees what changes. They are inside of the page: colours as JPEG, error maps as they are.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use base64::encode;
+use image::ImageFormat;
+use image::codecs::jpeg::JpegEncoder;
+
+use crate::bench::report::reference::Pair;
+
+/// JPEG quality at which texels of a shadow's edge keep their contrast.
+const QUALITY: u8 = 92;
+
+/// The pictures of all pairs; `out` is the results folder.
+pub fn pictures(pairs: &[Pair<'_>], out: &Path) -> Result<String> {
+    let mut html = String::new();
+    for (index, pair) in pairs.iter().enumerate() {
+        html += &figure(index, pair, out)?;
+    }
+    Ok(html)
+}
+
+fn figure(index: usize, pair: &Pair<'_>, out: &Path) -> Result<String> {
+    let key = &pair.adaptive.key;
+    let views = [
+        (pair.fixed, "picture", format!("fixed {}", pair.fixed.sizes_words())),
+        (pair.adaptive, "picture", format!("adaptive {}", pair.adaptive.sizes_words())),
+        (pair.adaptive, "truth", "without texels".to_owned()),
+        (pair.fixed, "error_map", "error, fixed".to_owned()),
+        (pair.adaptive, "error_map", "error, adaptive".to_owned()),
+    ];
+    let (mut tabs, mut images) = (String::new(), String::new());
+    for (view, (row, picture, label)) in views.iter().enumerate() {
+        let Some(name) = row.pictures.get(*picture) else { continue };
+        let checked = if view == 1 { " checked" } else { "" };
+        tabs += &format!(
+            "<input type=radio name=p{index} id=p{index}v{view} class=v{view}{checked}><label for=p{index}v{view}>{label}</label>"
+        );
+        images +=
+            &format!("<img loading=lazy class=v{view} alt='{key}: {label}' src='{}'>", embedded(&out.join(name))?);
+    }
+    let errors = |row: &crate::bench::row::Row| format!("{:.4}", row.comparison.penumbra.rms);
+    Ok(format!(
+        "<figure class=views><h3>{} under {}: {:.0} times fewer texels</h3>{tabs}<div>{images}</div>\
+         <figcaption>RMS error in the penumbra: fixed {}, adaptive {}. Error maps: red too bright, blue too dark, full colour \
+         at 0.25 of the light.</figcaption></figure>",
+        key.scene,
+        key.filter(),
+        pair.fewer_texels(),
+        errors(pair.fixed),
+        errors(pair.adaptive),
+    ))
+}
+
+/// A picture as a URL that holds it.
+fn embedded(path: &Path) -> Result<String> {
+    let bytes = fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+    if path.to_string_lossy().contains("error") {
+        return Ok(format!("data:image/png;base64,{}", encode(bytes)));
+    }
+    let picture = image::load_from_memory_with_format(&bytes, ImageFormat::Png)
+        .with_context(|| format!("{}: is no whole PNG picture", path.display()))?;
+    let mut jpeg = Vec::new();
+    JpegEncoder::new_with_quality(&mut jpeg, QUALITY)
+        .encode_image(&picture)
+        .with_context(|| format!("{}: cannot be encoded", path.display()))?;
+    Ok(format!("data:image/jpeg;base64,{}", encode(jpeg)))
+}

@@ -1,0 +1,45 @@
+//! What changes on the way, in numbers: pops, shimmer, and whether any frame is slower than the fixed map's.
+
+use crate::bench::walk::{Points, Walk};
+
+/// The table of all paths.
+pub fn table(walks: &[Walk]) -> String {
+    let mut html = String::from(
+        "<div class=wide><table><thead><tr><th>Scene<th>Filter<th>Path<th>Changes<br>of size<th>Change at<br>a change of size\
+         <th>Change<br>without one<th>Shimmer,<br>adaptive<th>Shimmer,<br>fixed<th>Time over fixed,<br>median<th>slowest frame\
+         </thead><tbody>",
+    );
+    for walk in walks {
+        let ratios = walk.time_ratios();
+        let spread = crate::statistics::Spread::of(&ratios);
+        let most = ratios.iter().copied().fold(f64::NAN, f64::max);
+        let points = walk.adaptive_points.as_ref();
+        html += &format!(
+            "<tr><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}",
+            walk.key.scene,
+            walk.key.filter(),
+            walk.path,
+            walk.switches(),
+            share(points.filter(|points| points.pop.switches > 0).map(|points| points.pop.switch_mean)),
+            share(points.map(|points| points.pop.steady_mean)),
+            share(points.map(shimmer)),
+            share(walk.fixed_points.as_ref().map(shimmer)),
+            spread.map_or("-".into(), |spread| format!("{:.2}", spread.median)),
+            if most.is_nan() { "-".into() } else { format!("{most:.2}") },
+        );
+    }
+    html + "</tbody></table></div><p class=note>Changes are those of the visibility at fixed points of the world between two \
+            frames (root mean square); shimmer is its standard deviation over the frames. With <b>sweep</b> the light moves, so \
+            that they hold its motion too. A point sees the same kernel all the time.</p>"
+}
+
+fn shimmer(points: &Points) -> f64 {
+    points.shimmer.rms
+}
+
+fn share(value: Option<f64>) -> String {
+    value.map_or(
+        "-".into(),
+        |value| if value > 0.0 && value < 1e-4 { format!("{value:.0e}") } else { format!("{value:.4}") },
+    )
+}
