@@ -19,7 +19,7 @@ use crate::weighted::Weighted;
 use crate::{Error, check};
 
 /// Distances between the edges of a picture and those of the truth.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct EdgeDisplacement {
     /// Length of the picture's edges inside the mask, in pixels.
     pub found_length_px: f64,

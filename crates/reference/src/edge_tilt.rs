@@ -25,7 +25,7 @@ use crate::{Error, check};
 pub const HIDDEN_TILT_DEG: f64 = 8.2;
 
 /// Angles between the edges of a picture and those of the truth.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct EdgeTilt {
     /// Share of the length of the picture's edges that was compared, 0 to 1; 1 where there is no edge.
     pub compared_share: f64,

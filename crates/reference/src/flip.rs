@@ -21,7 +21,7 @@ pub const FLIP_PIXELS_PER_DEGREE: f64 = 67.0;
 const PIXELS_PER_DEGREE: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
 
 /// Visible differences over a mask.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Flip {
     /// Pixels of the mask.
     pub pixels: usize,

@@ -14,7 +14,7 @@
 use crate::{Error, check};
 
 /// The error of a picture in two parts whose squares add up to that of the whole, in shares of full light.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ErrorParts {
     /// Pixels of the mask.
     pub pixels: usize,

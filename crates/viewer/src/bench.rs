@@ -12,6 +12,7 @@ mod column;
 mod comparison;
 mod demand;
 mod difference;
+mod edges;
 #[cfg(test)]
 mod examples;
 mod partial;
@@ -27,6 +28,7 @@ mod walk;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
+use scumble_reference::LightTruth;
 
 use crate::bench::against::changes;
 use crate::bench::column::{descriptions, table};
@@ -38,10 +40,11 @@ use crate::bench::trade::trades;
 use crate::cli::{Bench, Conditions};
 use crate::device::Gpu;
 use crate::output::{Kind, claim, make_directory, write, write_json};
-use crate::progress::progress;
+use crate::progress::{progress, say};
 use crate::record::{MachineRecord, RatioRecord};
 use crate::setup::Setup;
 use crate::stage::Stage;
+use crate::truth::Store;
 
 /// Where the results go.
 struct Results {
@@ -55,6 +58,8 @@ pub fn run(options: &Bench) -> Result<()> {
     // Everything that can be refused is refused before the first frame.
     let is_complete = !options.sizes.is_empty() && !options.methods.is_empty() && !options.softness.is_empty();
     ensure!(is_complete, "--sizes, --methods and --softness need one entry at least");
+    let (samples, allowed) = (options.light_samples(), LightTruth::SAMPLES);
+    ensure!(allowed.contains(&samples), "--light-samples {samples}: one of {allowed:?} is allowed");
     let old = options.against.as_deref().map(BenchRecord::read).transpose()?;
     let conditions = conditions(options);
     let setups = open_scenes(options, &conditions)?;
@@ -65,6 +70,7 @@ pub fn run(options: &Bench) -> Result<()> {
         record: claim(&options.out.join("bench.json"), Kind::Json(SCHEMA))?,
         report: claim(&options.out.join("report.html"), Kind::Html(REPORT_MARK))?,
     };
+    let store = Store::new(options.cache.as_deref())?;
     let gpu = Gpu::open()?;
     let machine = MachineRecord::of(&gpu);
     let names: Vec<String> = setups.iter().map(|setup| setup.scene.name.clone()).collect();
@@ -75,13 +81,13 @@ pub fn run(options: &Bench) -> Result<()> {
     let count = names.len() * rows_of_scene(options);
     let rows = progress("rows", count as u64);
     rows.set_position(partial.rows().len() as u64);
-    partial.rows().iter().for_each(|row| rows.suspend(|| println!("{row}  (of the run before)")));
+    partial.rows().iter().for_each(|row| say(format_args!("{row}  (of the run before)")));
     for setup in
         setups.into_iter().filter(|setup| !is_finished(options, &partial, &setup.scene.name)).collect::<Vec<_>>()
     {
         let mut stage = Stage::new(gpu.clone(), setup)?;
         let size_px = [conditions.width, conditions.height];
-        bench_scene(options, size_px, &stage, &mut partial, &rows)?;
+        bench_scene(options, size_px, &stage, &store, &mut partial, &rows)?;
         walk_scene(options, size_px, &mut stage, &mut partial)?;
     }
     rows.finish_and_clear();

@@ -4,6 +4,9 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use scumble_reference::LightTruth;
+
+use crate::truth::LIGHT_SAMPLES;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -94,6 +97,13 @@ pub struct Bench {
     /// when it is started again with the same options
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// Rays of every pixel to the light, the truth of pcss and of hard shadows: one of 64, 128, 256, 512 and 1024
+    /// [default: 256, with --quick 64]
+    #[arg(long, value_name = "N")]
+    pub light_samples: Option<u32>,
+    /// Where finished truths are kept, as for truth
+    #[arg(long, value_name = "DIR")]
+    pub cache: Option<PathBuf>,
     /// Half the width and height, one sample per pixel in the pictures
     #[arg(long)]
     pub quick: bool,
@@ -108,6 +118,14 @@ pub struct Bench {
     /// whose medians differ by more than 5 %, texels, RMS errors in the penumbra that differ by more than 2 %
     #[arg(long, value_name = "OLD.json")]
     pub against: Option<PathBuf>,
+}
+
+impl Bench {
+    /// Rays of every pixel to the light.
+    pub fn light_samples(&self) -> u32 {
+        let [fewest, ..] = LightTruth::SAMPLES;
+        self.light_samples.unwrap_or(if self.quick { fewest } else { LIGHT_SAMPLES })
+    }
 }
 
 /// Options of `truth`.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
-use scumble_core::{Filter, Light, Relation};
+use scumble_core::{Filter, Fit, Light, Relation};
 use scumble_scenes::Scene;
 
 use crate::cli::{Conditions, Method};
@@ -49,6 +49,13 @@ impl Setup {
             Method::Pcf => Filter::Pcf { radius_world: self.pcf_radius_plane * softness },
             Method::Pcss => Filter::Pcss,
         }
+    }
+
+    /// What a light of this softness sees of what the camera sees; `None` where that is nothing.
+    pub fn fit(&self, softness: f64) -> Result<Option<Fit>> {
+        let scene = &self.scene;
+        let fitted = scumble_core::fit(&scene.camera, &scene.bounds(), &self.light(softness)?, true);
+        fitted.with_context(|| format!("the scene {}", scene.name))
     }
 
     /// The light, `softness` times as large as this setup's.

@@ -24,6 +24,9 @@ type Cell = Box<dyn Fn(&Row) -> String>;
 /// A part of a column's name, what it means, and the way to its value.
 type Statistic<Of, To> = (&'static str, &'static str, fn(&Of) -> &To);
 
+/// The pixels of an error: a part of the columns' names, words, and the way to it.
+type Mask = (&'static str, &'static str, fn(&Row) -> Option<&Differences>);
+
 /// One column.
 pub struct Column {
     /// In the header.
@@ -85,15 +88,21 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
             });
         }
     }
-    let masks: [Statistic<Row, Differences>; 2] = [
-        ("lit_facing", "all pixels that face the light", |row| &row.comparison.lit_facing),
-        ("penumbra", "the penumbra, whose true visibility is neither 0 nor 1", |row| &row.comparison.penumbra),
+    let masks: [Mask; 4] = [
+        ("lit_facing", "all pixels that face the light", |row| Some(&row.comparison.lit_facing)),
+        ("penumbra", "the penumbra, whose true visibility is neither 0 nor 1", |row| Some(&row.comparison.penumbra)),
+        ("light_lit_facing", "all pixels that face the light, against the light itself", |row| {
+            row.comparison.light.as_ref().map(|light| &light.lit_facing)
+        }),
+        ("light_penumbra", "the pixels that see the light in part, against the light itself", |row| {
+            row.comparison.light.as_ref().map(|light| &light.penumbra)
+        }),
     ];
     for (mask, words, of) in masks {
         columns.push(Column {
             name: format!("{mask}_pixels"),
-            meaning: format!("number of pixels of {words}"),
-            cell: Box::new(move |row| of(row).pixels.to_string()),
+            meaning: format!("number of {words}"),
+            cell: Box::new(move |row| of(row).map(|error| error.pixels.to_string()).unwrap_or_default()),
         });
         let errors: [Statistic<Differences, f64>; 4] = [
             ("max", "largest error", |error| &error.max),
@@ -105,16 +114,68 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
             columns.push(Column {
                 name: format!("{mask}_{name}"),
                 meaning: format!("{which} over {words}, share of full light; empty without such pixels"),
-                cell: Box::new(move |row| number((of(row).pixels > 0).then(|| *value(of(row))))),
+                cell: Box::new(move |row| number(of(row).filter(|error| error.pixels > 0).map(|error| *value(error)))),
             });
         }
     }
+    columns.extend([
+        column(
+            "light_standard_error",
+            "root mean square of the light truth's own standard error over the pixels that see the light in part",
+            Box::new(|row| number(row.comparison.light.map(|light| light.standard_error))),
+        ),
+        column(
+            "penumbra_noise_rms",
+            "the part of `penumbra_rms` that differs between neighbours of 5 x 5 pixels",
+            Box::new(|row| number(some_of(row, row.comparison.parts.noise_rms))),
+        ),
+        column(
+            "penumbra_structure_rms",
+            "the part of `penumbra_rms` that neighbours share; the squares of the two add up",
+            Box::new(|row| number(some_of(row, row.comparison.parts.structure_rms))),
+        ),
+        column(
+            "flip_mean",
+            "mean FLIP of the visibility as a picture against the kernel truth, 0 to 1, over pixels that face the light",
+            Box::new(|row| number(Some(row.comparison.flip_mean))),
+        ),
+        column(
+            "edge_length_px",
+            "pixels of true edges on even surfaces in penumbrae of 8 pixels and more; this and the next four are empty below 100",
+            Box::new(|row| number(row.comparison.edges.map(|edges| edges.length_px))),
+        ),
+        column(
+            "edge_displacement_mean_px",
+            "mean distance of these edges from the true ones, pixels",
+            Box::new(|row| number(row.comparison.edges.map(|edges| edges.displacement_mean_px))),
+        ),
+        column(
+            "edge_displacement_p95_px",
+            "95th percentile of that distance, pixels",
+            Box::new(|row| number(row.comparison.edges.map(|edges| edges.displacement_p95_px))),
+        ),
+        column(
+            "edge_tilt_p50_deg",
+            "median angle between these edges and the true ones, degrees",
+            Box::new(|row| number(row.comparison.edges.map(|edges| edges.tilt_p50_deg))),
+        ),
+        column(
+            "edge_tilt_visible_share",
+            "share of their length that is tilted by more than the 8.2 degrees that observers miss",
+            Box::new(|row| number(row.comparison.edges.map(|edges| edges.tilt_visible_share))),
+        ),
+    ]);
     columns.push(column(
         "violation_share",
         "share of the penumbra, 0 to 1, whose filter is narrower than the ratio asks for; empty without a soft filter",
         Box::new(|row| number(row.comparison.violation_share)),
     ));
     columns
+}
+
+/// A number of the penumbra, where there is one.
+fn some_of(row: &Row, value: f64) -> Option<f64> {
+    (row.comparison.penumbra.pixels > 0).then_some(value)
 }
 
 fn number(value: Option<f64>) -> String {

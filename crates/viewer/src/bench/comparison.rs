@@ -8,14 +8,19 @@
 use anyhow::Result;
 use scumble::scumble_core::pixel_footprint_world;
 use scumble::{Light, Settings};
-use scumble_reference::{Differences, differences, penumbra};
+use scumble_reference::{
+    Differences, ErrorParts, Estimate, FLIP_PIXELS_PER_DEGREE, differences, error_parts, flip, penumbra,
+};
 use serde::{Deserialize, Serialize};
 
+use crate::bench::edges::{EdgeTruth, Edges};
 use crate::cli::Method;
 use crate::gbuffer::Surface;
 use crate::stage::Stage;
 use crate::variant::Variant;
 
+/// Half the window in which errors that differ are grain: 5 x 5 pixels.
+const GRAIN_RADIUS_PX: usize = 2;
 /// Rounding that does not make a radius of exactly c texels a violation.
 const VIOLATION_SLACK: f64 = 1e-4;
 
@@ -37,6 +42,16 @@ impl Screen {
     }
 }
 
+/// What a filter's pictures are compared with.
+pub struct Truths {
+    /// The same filter without texels.
+    pub kernel: Vec<f32>,
+    /// Its edges.
+    pub edges: EdgeTruth,
+    /// The light itself; `None` for a filter whose softness is not that of a light.
+    pub light: Option<Vec<Estimate>>,
+}
+
 /// Errors of a variant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
@@ -44,24 +59,60 @@ pub struct Comparison {
     pub lit_facing: Differences,
     /// Over those with partial visibility.
     pub penumbra: Differences,
+    /// The error in the penumbra as grain and as structure.
+    pub parts: ErrorParts,
+    /// Visible difference of pictures of the visibility, mean FLIP, 0 to 1.
+    pub flip_mean: f64,
+    /// Edges; null where there are too few that are shadows' alone.
+    pub edges: Option<Edges>,
+    /// Against the light itself; null for pcf, whose radius is no light's.
+    pub light: Option<LightComparison>,
     /// Share of the penumbra in which texels are seen; null without a soft filter or a map.
     pub violation_share: Option<f64>,
 }
 
-/// Compares the visibility of every pixel with the truth; `radii` are those of the filter before its lower clamp.
+/// Errors against the light itself.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LightComparison {
+    /// Over all pixels that face the light.
+    pub lit_facing: Differences,
+    /// Over those of which the light is partly seen.
+    pub penumbra: Differences,
+    /// Root mean square of the truth's own standard error over the penumbra: no error below it can be told from none.
+    pub standard_error: f64,
+}
+
+/// Compares the visibility of every pixel with the truths; `radii` are those of the filter before its lower clamp.
 pub fn compare(
     stage: &Stage,
     variant: &Variant,
     screen: &Screen,
     visibility: &[f32],
-    truth: &[f32],
+    truths: &Truths,
     radii: &[f32],
 ) -> Result<Comparison> {
+    let (truth, width) = (&truths.kernel, screen.size_px[0] as usize);
     let penumbra = penumbra(truth, &screen.lit_facing)?;
     Ok(Comparison {
         lit_facing: differences(visibility, truth, &screen.lit_facing)?,
         penumbra: differences(visibility, truth, &penumbra)?,
+        parts: error_parts(visibility, truth, &penumbra, width, GRAIN_RADIUS_PX)?,
+        flip_mean: flip(visibility, truth, &screen.lit_facing, width, FLIP_PIXELS_PER_DEGREE)?.mean,
+        edges: truths.edges.compare(visibility)?,
+        light: truths.light.as_ref().map(|light| compare_with_light(screen, visibility, light)).transpose()?,
         violation_share: violation_share(stage, variant, screen, &penumbra, radii)?,
+    })
+}
+
+fn compare_with_light(screen: &Screen, visibility: &[f32], light: &[Estimate]) -> Result<LightComparison> {
+    let truth: Vec<f32> = light.iter().map(|estimate| estimate.visibility).collect();
+    let penumbra = penumbra(&truth, &screen.lit_facing)?;
+    let errors = light.iter().zip(&penumbra).filter(|(_, inside)| **inside);
+    let squares: Vec<f64> = errors.map(|(estimate, _)| f64::from(estimate.standard_error).powi(2)).collect();
+    Ok(LightComparison {
+        lit_facing: differences(visibility, &truth, &screen.lit_facing)?,
+        penumbra: differences(visibility, &truth, &penumbra)?,
+        standard_error: (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt(),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use scumble_reference::Differences;
+use scumble_reference::{Differences, ErrorParts};
 
 use crate::bench::comparison::Comparison;
 use crate::bench::record::{BenchRecord, OptionsRecord, SCHEMA};
@@ -24,7 +24,15 @@ pub fn row(scene: &str, method: &str, size: &str, total_ms: f64, error: f64) -> 
         passes: 2,
         taps_per_pixel: 25,
         times_ms: BTreeMap::from([("total".into(), total)]),
-        comparison: Comparison { lit_facing: differences, penumbra: differences, violation_share: Some(0.0) },
+        comparison: Comparison {
+            lit_facing: differences,
+            penumbra: differences,
+            parts: ErrorParts { pixels: 100, rms: error, noise_rms: 0.6 * error, structure_rms: 0.8 * error },
+            flip_mean: error,
+            edges: None,
+            light: None,
+            violation_share: Some(0.0),
+        },
         pictures: BTreeMap::new(),
     }
 }
@@ -39,6 +47,7 @@ pub fn options() -> OptionsRecord {
         frames: 15,
         width: 1280,
         height: 720,
+        light_samples: 256,
         quick: false,
         paths: Vec::new(),
         sweep_ratio: false,

@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use image::RgbImage;
-use scumble::{Filter, Plan};
-use scumble_reference::{Rays, error_map};
+use scumble_reference::error_map;
 
 use crate::gbuffer::{GBuffer, Surface};
 use crate::output::{Kind, claim, write_png};
 use crate::stage::Stage;
-use crate::truth::true_visibility;
+use crate::truth::spread;
 use crate::variant::Variant;
 
 /// Error of the shadow fraction that has the full colour in the error maps.
@@ -35,18 +34,12 @@ impl<'a> Pictures<'a> {
         Ok(Self { stage, directory: directory.to_owned(), size_px, samples_per_side, samples })
     }
 
-    /// The picture of the truth; `visibility` is that of one sample per pixel.
-    pub fn truth(&self, rays: &Rays, filter: &Filter, plan: &Plan, visibility: &[f32]) -> Result<PathBuf> {
+    /// The picture of the truth; `visibility` is that of the surfaces in the middle of the pixels.
+    pub fn truth(&self, visibility: &[f32], surfaces: &[Option<Surface>]) -> Result<PathBuf> {
         let path = claim(&self.directory.join("truth.png"), Kind::Png)?;
-        let finer;
-        let visibility = if self.samples_per_side == 1 {
-            visibility
-        } else {
-            let surfaces: Vec<Option<Surface>> = self.samples.read_surfaces(&self.stage.gpu)?;
-            finer = true_visibility("truth of the picture", rays, filter, plan, &surfaces, self.samples.size_px[0]);
-            &finer
-        };
-        let texture = self.stage.upload_visibility(&self.samples, visibility);
+        let samples = self.samples.read_surfaces(&self.stage.gpu)?;
+        let finer = spread(visibility, surfaces, self.size_px[0], &samples, self.samples_per_side);
+        let texture = self.stage.upload_visibility(&self.samples, &finer);
         write_png(&path, &self.stage.picture(&self.samples, &texture, self.samples_per_side)?)?;
         Ok(path)
     }

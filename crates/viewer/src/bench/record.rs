@@ -57,6 +57,8 @@ pub struct OptionsRecord {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
+    /// Rays of every pixel to the light.
+    pub light_samples: u32,
     /// One sample per pixel in the pictures.
     pub quick: bool,
     /// Paths of camera and light.
@@ -82,6 +84,7 @@ impl OptionsRecord {
             frames: options.frames,
             width: conditions.width,
             height: conditions.height,
+            light_samples: options.light_samples(),
             quick: options.quick,
             paths: options.paths.iter().map(|path| path.name().to_owned()).collect(),
             sweep_ratio: options.sweep_ratio,

@@ -45,6 +45,21 @@ pub fn report(record: &BenchRecord, out: &Path) -> Result<String> {
         &(legend(&filters)
             + &pareto::pareto(&record.rows, &record.options.scenes, &filters, "RMS error, penumbra", Row::error)?),
     );
+    let of_light = distinct(record.rows.iter().filter(|row| row.light_error().is_some()).map(|row| row.key.filter()));
+    if !of_light.is_empty() {
+        let axis = "RMS error against the light, penumbra";
+        let figure = pareto::pareto(&record.rows, &record.options.scenes, &of_light, axis, Row::light_error)?;
+        page += &section(
+            "Against the light itself",
+            &format!(
+                "The same times; the error is that against the share of the light's area that a point sees, by {} rays a pixel, \
+                 so that it holds what the filter does beside what the texels do. Percentage-closer filtering with a fixed \
+                 radius stands for no light and is left out.",
+                record.options.light_samples
+            ),
+            &(legend(&of_light) + &figure),
+        );
+    }
     page += &section(
         "What it looks like",
         "Choose a label: the pictures lie over one another.",
@@ -71,7 +86,9 @@ pub fn report(record: &BenchRecord, out: &Path) -> Result<String> {
             "Which ratio",
             &format!(
                 "Adaptive maps chosen by other ratios. A violation is a pixel of the penumbra whose filter is narrower than {} \
-                 texels, the ratio of this run, shown with its interval. Hollow points are at the cap.",
+                 texels, the ratio of this run, shown with its interval. An edge is tilted visibly above 8.2 degrees, on even \
+                 surfaces and in penumbrae of 8 pixels and more. Hollow points are at the cap, where soft shadows narrower \
+                 than the map can hide are widened.",
                 ratio.value
             ),
             &(legend(&record.options.scenes) + &figure),
@@ -113,7 +130,7 @@ fn legend(names: &[String]) -> String {
 fn numbers(rows: &[Row]) -> String {
     let mut html = String::from(
         "<div class=wide><table><thead><tr><th>Scene<th>Filter<th>Size<th>Texels<th>Depth, ms<th>Demand, ms<th>Evaluation, ms\
-         <th>Total, ms<th>RMS, penumbra<th>99 %<th>Largest<th>Bias<th>RMS, lit sides<th>Violation</thead><tbody>",
+         <th>Total, ms<th>RMS, penumbra<th>99 %<th>Largest<th>Bias<th>RMS, lit sides<th>RMS, light<th>Tilted edges<th>Violation</thead><tbody>",
     );
     for row in rows {
         let time = |part: &str| match row.times_ms.get(part) {
@@ -126,7 +143,7 @@ fn numbers(rows: &[Row]) -> String {
         let class = if row.key.is_adaptive() { "adaptive" } else { "" };
         html += &format!(
             "<tr class='{class}'><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{:.4}<td>{:.3}<td>{:.2}<td>{:+.4}<td>{:.4}\
-             <td>{}",
+             <td>{}<td>{}<td>{}",
             escaped(&row.key.scene),
             row.key.filter(),
             row.sizes_words(),
@@ -140,10 +157,16 @@ fn numbers(rows: &[Row]) -> String {
             penumbra.max,
             penumbra.bias,
             row.comparison.lit_facing.rms,
-            row.comparison.violation_share.map_or("-".into(), |share| format!("{:.0} %", 100.0 * share)),
+            row.light_error().map_or("-".into(), |error| format!("{error:.4}")),
+            percent(row.comparison.edges.map(|edges| edges.tilt_visible_share)),
+            percent(row.comparison.violation_share),
         );
     }
     html + "</tbody></table></div>"
+}
+
+fn percent(share: Option<f64>) -> String {
+    share.map_or("-".into(), |share| format!("{:.0} %", 100.0 * share))
 }
 
 fn foot(record: &BenchRecord) -> String {

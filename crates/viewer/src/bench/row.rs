@@ -185,6 +185,11 @@ impl Row {
         let penumbra = &self.comparison.penumbra;
         (penumbra.pixels > 0).then_some(penumbra.rms)
     }
+
+    /// RMS error in the penumbra against the light itself.
+    pub fn light_error(&self) -> Option<f64> {
+        self.comparison.light.as_ref().map(|light| light.penumbra.rms)
+    }
 }
 
 /// A path inside the results, as the records name it.

@@ -4,8 +4,9 @@ use anyhow::Result;
 use indicatif::ProgressBar;
 use scumble_reference::{Rays, penumbra};
 
-use crate::bench::comparison::{Screen, compare};
+use crate::bench::comparison::{Screen, Truths, compare};
 use crate::bench::demand::DemandHistogram;
+use crate::bench::edges::EdgeTruth;
 use crate::bench::partial::Partial;
 use crate::bench::pictures::Pictures;
 use crate::bench::row::{Key, Row, Timings};
@@ -14,10 +15,10 @@ use crate::bench::walk::walk;
 use crate::cli::{Bench, Method, Motion, Size};
 use crate::gbuffer::GBuffer;
 use crate::output::make_directory;
-use crate::progress::progress;
+use crate::progress::{progress, say};
 use crate::stage::Stage;
 use crate::timer::Timer;
-use crate::truth::true_visibility;
+use crate::truth::{Samples, Source, Store};
 use crate::variant::{Case, Variant, still_settings};
 
 /// Samples per pixel along x and along y of the pictures.
@@ -81,6 +82,7 @@ pub fn bench_scene(
     options: &Bench,
     size_px: [u32; 2],
     stage: &Stage,
+    store: &Store,
     partial: &mut Partial,
     rows: &ProgressBar,
 ) -> Result<()> {
@@ -104,19 +106,16 @@ pub fn bench_scene(
 
     let screen = Screen::new(&stage.setup.scene.light, receivers.read_surfaces(&stage.gpu)?, size_px);
     let rays = Rays::new(&stage.setup.scene);
+    rays.skipped().iter().for_each(|skipped| eprintln!("warning: {name}: {skipped}"));
     let samples_per_side = if options.quick { 1 } else { SAMPLES_PER_SIDE };
     for &(method, softness) in &left {
         let is_of_filter = |variant: &Variant| (variant.case.method, variant.case.softness) == (method, softness);
-        let Some(first) = variants.iter().find(|variant| is_of_filter(variant)) else { continue };
-        let plan = first.plan()?.clone();
-        let filter = stage.setup.filter(method, softness);
-        let message = format!("{name}: truth of {}", method.name());
-        let truth = true_visibility(&message, &rays, &filter, &plan, &screen.surfaces, size_px[0]);
+        let truths = truths(stage, &rays, store, options.light_samples(), &screen, (method, softness))?;
 
         let directory = options.out.join(directory_name(&name)).join(directory_of_filter((method, softness)));
         make_directory(&directory)?;
         let pictures = Pictures::new(stage, &directory, size_px, samples_per_side)?;
-        let truth_picture = pictures.truth(&rays, &filter, &plan, &truth)?;
+        let truth_picture = pictures.truth(&truths.kernel, &screen.surfaces)?;
         for variant in variants.iter_mut().filter(|variant| is_of_filter(variant)) {
             let key = Key::of(&name, &variant.case);
             if partial.has_row(&key) {
@@ -124,11 +123,12 @@ pub fn bench_scene(
             }
             let visibility = variant.read_visibility(stage)?;
             let radii = variant.read_radii(stage, &receivers)?;
-            let comparison = compare(stage, variant, &screen, &visibility, &truth, &radii)?;
+            let comparison = compare(stage, variant, &screen, &visibility, &truths, &radii)?;
             let label = label(variant.case.size, &options.sizes);
-            let files = pictures.variant(variant, &label, &visibility, &truth, &screen.lit_facing, &truth_picture)?;
+            let files =
+                pictures.variant(variant, &label, &visibility, &truths.kernel, &screen.lit_facing, &truth_picture)?;
             let row = Row::new(stage, variant, partial.times(&key), comparison, files, &options.out)?;
-            rows.suspend(|| println!("{row}"));
+            say(&row);
             partial.add_row(row)?;
             rows.inc(1);
         }
@@ -138,14 +138,38 @@ pub fn bench_scene(
             && !partial.has_demand(&Key::of(&name, &variant.case))
         {
             let radii = variant.read_radii(stage, &receivers)?;
-            let penumbra = penumbra(&truth, &screen.lit_facing)?;
+            let penumbra = penumbra(&truths.kernel, &screen.lit_facing)?;
             partial.add_demand(DemandHistogram::of(stage, variant, &screen, &penumbra, &radii)?)?;
         }
         if is_swept(options, (method, softness)) && !partial.has_sweep(&name, method.name()) {
-            partial.add_sweep(&name, method.name(), sweep(stage, &receivers, (method, softness), &screen, &truth)?)?;
+            partial.add_sweep(&name, method.name(), sweep(stage, &receivers, (method, softness), &screen, &truths)?)?;
         }
     }
     Ok(())
+}
+
+/// The truths of a filter on a screen. The light's is that of the hard shadow and of PCSS, which both stand for it.
+fn truths(
+    stage: &Stage,
+    rays: &Rays,
+    store: &Store,
+    light_samples: u32,
+    screen: &Screen,
+    (method, softness): Filtering,
+) -> Result<Truths> {
+    let light = stage.setup.light(softness)?;
+    let fit = stage.setup.fit(softness)?;
+    let filter = stage.setup.filter(method, softness);
+    let find = |what: &str, samples: Samples| {
+        let source = Source::new(rays, &light, fit.as_ref(), filter, samples)?;
+        let message = format!("{}: truth of {what}", stage.setup.scene.name);
+        let found = store.find(&message, &source, &stage.setup.scene.meshes, &screen.surfaces, screen.size_px)?;
+        anyhow::Ok(found.estimates)
+    };
+    let kernel: Vec<f32> = find(method.name(), Samples::of_renderer())?.iter().map(|found| found.visibility).collect();
+    let is_of_light = method != Method::Pcf;
+    let light = is_of_light.then(|| find("the light", Samples::Light(light_samples))).transpose()?;
+    Ok(Truths { edges: EdgeTruth::new(screen, &kernel), kernel, light })
 }
 
 /// Times the frames of all variants of a scene, which take turns.

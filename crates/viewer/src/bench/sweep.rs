@@ -10,7 +10,7 @@ use scumble::Settings;
 use scumble::scumble_core::Relation;
 use serde::{Deserialize, Serialize};
 
-use crate::bench::comparison::{Screen, compare};
+use crate::bench::comparison::{Screen, Truths, compare};
 use crate::cli::{Method, Size};
 use crate::gbuffer::GBuffer;
 use crate::stage::Stage;
@@ -38,6 +38,10 @@ pub struct SweepPoint {
     pub rms: f64,
     /// 99th percentile of the error in the penumbra.
     pub p99: f64,
+    /// Share of the length of edges that is tilted by more than observers miss; null where there are too few.
+    pub tilt_visible_share: Option<f64>,
+    /// RMS error in the penumbra against the light; null for pcf.
+    pub light_rms: Option<f64>,
     /// Share of the penumbra that violates the run's relation; null where nothing is filtered.
     pub violation_share: Option<f64>,
 }
@@ -48,7 +52,7 @@ pub fn sweep(
     receivers: &GBuffer,
     (method, softness): (Method, f64),
     screen: &Screen,
-    truth: &[f32],
+    truths: &Truths,
 ) -> Result<Vec<SweepPoint>> {
     if method == Method::None {
         return Ok(Vec::new());
@@ -62,7 +66,7 @@ pub fn sweep(
         variant.settle(stage, receivers, &mut timer)?;
         let visibility = variant.read_visibility(stage)?;
         let radii = variant.read_radii(stage, receivers)?;
-        let comparison = compare(stage, &variant, screen, &visibility, truth, &radii)?;
+        let comparison = compare(stage, &variant, screen, &visibility, truths, &radii)?;
         let plan = variant.plan()?;
         Ok(SweepPoint {
             scene: stage.setup.scene.name.clone(),
@@ -72,6 +76,8 @@ pub fn sweep(
             capped: plan.views().iter().any(|view| view.size.capped),
             rms: comparison.penumbra.rms,
             p99: comparison.penumbra.p99,
+            tilt_visible_share: comparison.edges.map(|edges| edges.tilt_visible_share),
+            light_rms: comparison.light.map(|light| light.penumbra.rms),
             violation_share: comparison.violation_share,
         })
     };

@@ -1,8 +1,8 @@
 //! Which truth is asked for, and how often rays are sent for it.
 
 use anyhow::{Result, ensure};
-use scumble::{Filter, Light, Plan};
-use scumble_core::Taps;
+use scumble::{Filter, Light};
+use scumble_core::{Fit, Taps};
 use scumble_reference::{Estimate, KernelTruth, LightTruth, Rays, Receiver};
 use scumble_scenes::Mesh;
 
@@ -10,7 +10,7 @@ use crate::cli::{Truth, TruthOf};
 use crate::truth::key::{Key, KeyBuilder};
 
 /// Samples of the light by default: an error of about 1 % in the middle of a penumbra.
-const LIGHT_SAMPLES: u32 = 256;
+pub const LIGHT_SAMPLES: u32 = 256;
 /// Most taps of a filter: throwing the darts of more takes longer than the rays.
 const TAPS_MAX: u32 = 1024;
 
@@ -28,7 +28,7 @@ impl Samples {
     pub fn of(options: &Truth) -> Result<Self> {
         match (options.truth, options.samples) {
             (TruthOf::Kernel, samples) => {
-                let taps = samples.unwrap_or(Taps::FILTER as u32);
+                let taps = samples.unwrap_or(Self::of_renderer().number());
                 ensure!((1..=TAPS_MAX).contains(&taps), "--samples {taps}: the kernel truth has 1 to {TAPS_MAX} taps");
                 Ok(Self::Kernel(taps))
             }
@@ -39,6 +39,11 @@ impl Samples {
                 Ok(Self::Light(samples))
             }
         }
+    }
+
+    /// As many taps as the renderer's filter has.
+    pub fn of_renderer() -> Self {
+        Self::Kernel(Taps::FILTER as u32)
     }
 
     /// Points of the light, `None` for a filter.
@@ -68,21 +73,22 @@ pub enum Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// `plan` says where a filter's radii are measured; the light needs none.
+    /// `fit` says where a filter's radii are measured, and is `None` where the light sees nothing; a truth of the light
+    /// needs none.
     pub fn new(
         rays: &'a Rays,
         light: &'a Light,
-        plan: Option<&'a Plan>,
+        fit: Option<&'a Fit>,
         filter: Filter,
         samples: Samples,
     ) -> Result<Self> {
         match samples {
             Samples::Light(samples) => Ok(Self::Light(LightTruth::new(rays, light, samples)?, light)),
-            Samples::Kernel(taps) => Ok(match plan.and_then(|plan| plan.views().first()) {
+            Samples::Kernel(taps) => Ok(match fit {
                 None => Self::Open,
-                Some(view) => {
+                Some(fit) => {
                     let taps = Taps::new(Taps::BLOCKER, taps as usize);
-                    Self::Kernel(KernelTruth { taps, ..KernelTruth::new(rays, &view.fit, filter) })
+                    Self::Kernel(KernelTruth { taps, ..KernelTruth::new(rays, fit, filter) })
                 }
             }),
         }

@@ -27,8 +27,23 @@ struct Quantity {
     of: fn(&SweepPoint) -> Option<f64>,
 }
 
-const QUANTITIES: [Quantity; 3] = [
+/// Panels in a row.
+const COLUMNS: usize = 3;
+
+const QUANTITIES: [Quantity; 5] = [
     Quantity { title: "error", axis: "RMS error, penumbra", is_share: false, of: |point| Some(point.rms) },
+    Quantity {
+        title: "error against the light",
+        axis: "RMS error, penumbra",
+        is_share: false,
+        of: |point| point.light_rms,
+    },
+    Quantity {
+        title: "tilted edges",
+        axis: "share that observers see, %",
+        is_share: true,
+        of: |point| point.tilt_visible_share.map(|share| 100.0 * share),
+    },
     Quantity {
         title: "violations",
         axis: "share of the penumbra, %",
@@ -38,15 +53,20 @@ const QUANTITIES: [Quantity; 3] = [
     Quantity { title: "texels", axis: "texels", is_share: false, of: |point| Some(point.texels as f64) },
 ];
 
-/// Draws a row of panels for each of `methods`, a colour for each of `scenes`.
+/// Draws a figure for each of `methods`, a colour for each of `scenes`.
 pub fn ratios(sweep: &[SweepPoint], scenes: &[String], methods: &[String], ratio: &RatioRecord) -> Result<String> {
-    let swept: Vec<&String> =
-        methods.iter().filter(|&method| sweep.iter().any(|point| point.method == *method)).collect();
-    panels("Which ratio", swept.len() * QUANTITIES.len(), QUANTITIES.len(), |index, panel| {
-        let (method, quantity) = (swept[index / QUANTITIES.len()], &QUANTITIES[index % QUANTITIES.len()]);
+    let mut figures = String::new();
+    for method in methods {
         let of_method: Vec<&SweepPoint> = sweep.iter().filter(|point| point.method == *method).collect();
-        draw_panel(panel, method, quantity, &of_method, scenes, ratio)
-    })
+        let shown: Vec<&Quantity> =
+            QUANTITIES.iter().filter(|it| of_method.iter().any(|point| (it.of)(point).is_some())).collect();
+        if !shown.is_empty() {
+            figures += &panels("Which ratio", shown.len(), COLUMNS, |index, panel| {
+                draw_panel(panel, method, shown[index], &of_method, scenes, ratio)
+            })?;
+        }
+    }
+    Ok(figures)
 }
 
 /// Shares stand on a linear axis, the others on a logarithmic one.

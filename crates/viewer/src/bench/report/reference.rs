@@ -50,6 +50,12 @@ impl Pair<'_> {
         Some(self.adaptive.error()? / fixed)
     }
 
+    /// Adaptive over fixed error against the light itself.
+    pub fn light_error_ratio(&self) -> Option<f64> {
+        let fixed = self.fixed.light_error().filter(|&error| error > 0.0)?;
+        Some(self.adaptive.light_error()? / fixed)
+    }
+
     /// Adaptive over fixed frames per second, with receivers and shading.
     pub fn frame_rate_ratio(&self) -> Option<f64> {
         let drawing = self.adaptive.times_ms.get("drawing")?.median;

@@ -40,13 +40,13 @@ pub fn summary(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
 fn table(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
     let mut html = String::from(
         "<table class=ratios><thead><tr><th>Scene<th>Filter<th>Fixed<th>Adaptive<th>Texels,<br>times fewer\
-         <th>Time<th>of it,<br>size<th>Error<th>Frame rate<th>Error in<br>equal time<th>Time for<br>equal error<th>Verdict</thead><tbody>",
+         <th>Time<th>of it,<br>size<th>Error<th>Error,<br>light<th>Frame rate<th>Error in<br>equal time<th>Time for<br>equal error<th>Verdict</thead><tbody>",
     );
     for pair in pairs {
         let trade = trades.iter().find(|trade| trade.key == pair.adaptive.key);
         let _ = write!(
             html,
-            "<tr><td>{}<td>{}<td>{}<td>{}<td>{:.1}<td>{}<td>{}<td>{}<td>{}{}",
+            "<tr><td>{}<td>{}<td>{}<td>{}<td>{:.1}<td>{}<td>{}<td>{}<td>{}<td>{}{}",
             pair.adaptive.key.scene,
             pair.adaptive.key.filter(),
             pair.fixed.sizes_words(),
@@ -55,12 +55,13 @@ fn table(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
             times(pair.time_ratio()),
             times(pair.time_ratio_of_size(rows)),
             times(pair.error_ratio()),
+            times(pair.light_error_ratio()),
             times(pair.frame_rate_ratio()),
             trade.map_or_else(|| "<td>-<td>-<td>-".to_owned(), cells),
         );
     }
     html + "</tbody></table>\
-            <p class=note><b>Time</b>, <b>Error</b> (RMS over the penumbra) and <b>Frame rate</b> (with receivers and shading) \
+            <p class=note><b>Time</b>, <b>Error</b> (RMS over the penumbra against the same filter without texels, and against the light itself) and <b>Frame rate</b> (with receivers and shading) \
             are adaptive over fixed. An adaptive map also skips filters where its demand pass found light or dark: <b>of it, size</b> is \
             the time over that of a fixed map that skips them too. <b>Error in equal time</b> and <b>Time for equal error</b> are adaptive over the curve of \
             all fixed sizes, where it reaches: below 1 no fixed size does as well. A frame rate above 1 is faster.</p>"
