@@ -8,7 +8,6 @@ use crate::run;
 use crate::summary::{Summary, TRUE_RATIO};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::time::Instant;
 
 /// Three compositions and the simplest case: what a reader of the report wants to see, in the time of a demonstration.
@@ -33,17 +32,17 @@ pub fn run(quick: bool) -> Result<Summary> {
     start_afresh(&folder)?;
 
     println!("\n1/5  Stimuli: what a participant sees");
-    program("examples/sheet", &[path(&folder.join("stimuli.png"))?])?;
+    run::program("examples/sheet", &[path(&folder.join("stimuli.png"))?])?;
 
     println!("\n2/5  Study: {OBSERVERS} simulated observers, true ratio {TRUE_RATIO}");
     let sessions = folder.join("sessions");
     let ratio = TRUE_RATIO.to_string();
     let simulate = ["simulate", "--observers", OBSERVERS, "--seed", SEED, "--ratio", &ratio, "--out"];
-    program("scumble-analysis", &[&simulate[..], &[path(&sessions)?]].concat())?;
+    run::program("scumble-analysis", &[&simulate[..], &[path(&sessions)?]].concat())?;
 
     println!("\n3/5  Analysis: thresholds, then the relation");
     let study = folder.join("study");
-    program("scumble-analysis", &["fit", path(&sessions)?, "--out", path(&study)?])?;
+    run::program("scumble-analysis", &["fit", path(&sessions)?, "--out", path(&study)?])?;
     let relation = folder.join("relation.json");
     std::fs::copy(study.join("relation.json"), &relation)
         .with_context(|| format!("cannot copy the relation to {}", relation.display()))?;
@@ -51,11 +50,12 @@ pub fn run(quick: bool) -> Result<Summary> {
     println!("\n4/5  Renderer: real scenes, fixed 2048 x 2048 maps against adaptive ones");
     let bench = folder.join("bench");
     let mut render = vec!["bench", "--scenes", SCENES, "--sizes", "2048,adaptive"];
-    render.extend(["--relation", path(&relation)?, "--out", path(&bench)?]);
+    let cache = run::truth_cache();
+    render.extend(["--relation", path(&relation)?, "--out", path(&bench)?, "--cache", path(&cache)?]);
     if quick {
         render.push("--quick");
     }
-    program("scumble-viewer", &render)?;
+    run::program("scumble-viewer", &render)?;
 
     println!("\n5/5  Report");
     let summary = Summary::read(&folder)?;
@@ -80,19 +80,6 @@ fn start_afresh(folder: &Path) -> Result<()> {
         std::fs::remove_dir_all(folder).with_context(|| format!("cannot clear {}", folder.display()))?;
     }
     std::fs::create_dir_all(folder).with_context(|| format!("cannot create {}", folder.display()))
-}
-
-fn program(name: &str, arguments: &[&str]) -> Result<()> {
-    let mut file = run::target_directory().join("release").join(name);
-    file.set_extension(std::env::consts::EXE_EXTENSION);
-    let status = Command::new(&file)
-        .args(arguments)
-        .current_dir(run::workspace())
-        .envs(run::QUIET)
-        .status()
-        .with_context(|| format!("could not start {}", file.display()))?;
-    anyhow::ensure!(status.success(), "`{name} {}` ended with {status}", arguments.join(" "));
-    Ok(())
 }
 
 fn path(path: &Path) -> Result<&str> {

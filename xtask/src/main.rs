@@ -4,6 +4,7 @@
 //! quick demo; `setup` only installs. On Debian and Ubuntu missing packages are installed and named first;
 //! elsewhere the list of what to install is printed and nothing is changed.
 
+mod bench;
 mod bids;
 mod demo;
 mod packages;
@@ -35,6 +36,15 @@ enum Task {
         #[arg(long)]
         quick: bool,
     },
+    /// Measure the trade of time and accuracy on every scene, and the headline of the thesis
+    ///
+    /// Writes target/bench/trade and target/bench/headline, each with report.html, bench.csv, bench.json and bench.md. Takes an
+    /// hour or two on a software renderer; a run that was killed goes on.
+    Bench {
+        /// A quarter of the pixels, fewer rays: minutes
+        #[arg(long)]
+        quick: bool,
+    },
     /// Install what the tests need, run them all, then a quick demo whose numbers are checked
     ///
     /// Where npm is on the path, exported datasets are put before the BIDS validator too.
@@ -46,6 +56,7 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Demo { quick } => demo::run(quick).map(drop),
+        Task::Bench { quick } => bench::run(quick),
         Task::Test => test::run(),
         Task::Setup => packages::provide(&[packages::COMPILER, packages::VULKAN, packages::WINDOWS]),
     };

@@ -154,7 +154,7 @@ fn footer(summary: &Summary) -> String {
     let machine = &summary.bench.machine;
     format!(
         "<footer>{}, {}. Numbers: <a href=relation.json>relation.json</a>, <a href=bench/bench.csv>bench.csv</a>, \
-         <a href=bench/bench.json>bench.json</a>. Method: F. Kreuzer, <i>Using Perception-Based Filtering to Hide Shadow \
+         <a href=bench/bench.json>bench.json</a>. The trade in figures: <a href=bench/report.html>bench/report.html</a>. Method: F. Kreuzer, <i>Using Perception-Based Filtering to Hide Shadow \
          Artifacts</i>, TU Wien 2017.{}</footer>",
         machine.device,
         machine.driver,

@@ -44,6 +44,20 @@ pub fn cargo(arguments: &[&str]) -> Result<()> {
     visibly(&cargo, arguments)
 }
 
+/// Runs a program of this workspace's release build.
+pub fn program(name: &str, arguments: &[&str]) -> Result<()> {
+    let mut file = target_directory().join("release").join(name);
+    file.set_extension(std::env::consts::EXE_EXTENSION);
+    let status = Command::new(&file)
+        .args(arguments)
+        .current_dir(workspace())
+        .envs(QUIET)
+        .status()
+        .with_context(|| format!("could not start {}", file.display()))?;
+    anyhow::ensure!(status.success(), "`{name} {}` ended with {status}", arguments.join(" "));
+    Ok(())
+}
+
 /// The workspace's root folder.
 pub fn workspace() -> PathBuf {
     let xtask = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
@@ -56,4 +70,9 @@ pub fn target_directory() -> PathBuf {
         Some(folder) => workspace().join(folder),
         None => workspace().join("target"),
     }
+}
+
+/// Where ground truth is kept, which takes longest to compute and depends on the scene alone.
+pub fn truth_cache() -> PathBuf {
+    target_directory().join("truth")
 }

@@ -15,9 +15,11 @@ mod difference;
 mod edges;
 #[cfg(test)]
 mod examples;
+mod markdown;
 mod partial;
 mod pictures;
 mod record;
+mod reference;
 mod report;
 mod row;
 mod scene;
@@ -32,8 +34,10 @@ use scumble_reference::LightTruth;
 
 use crate::bench::against::changes;
 use crate::bench::column::{descriptions, table};
+use crate::bench::markdown::{MARKDOWN_MARK, markdown};
 use crate::bench::partial::{Header, Partial};
 use crate::bench::record::{BenchRecord, OptionsRecord, SCHEMA};
+use crate::bench::reference::pairs;
 use crate::bench::report::{REPORT_MARK, report};
 use crate::bench::scene::{bench_scene, is_finished, rows_of_scene, walk_scene};
 use crate::bench::trade::trades;
@@ -51,6 +55,7 @@ struct Results {
     table: PathBuf,
     record: PathBuf,
     report: PathBuf,
+    markdown: PathBuf,
 }
 
 /// Runs the command.
@@ -69,6 +74,7 @@ pub fn run(options: &Bench) -> Result<()> {
         table: claim(&options.out.join("bench.csv"), Kind::Csv)?,
         record: claim(&options.out.join("bench.json"), Kind::Json(SCHEMA))?,
         report: claim(&options.out.join("report.html"), Kind::Html(REPORT_MARK))?,
+        markdown: claim(&options.out.join("bench.md"), Kind::Markdown(MARKDOWN_MARK))?,
     };
     let store = Store::new(options.cache.as_deref())?;
     let gpu = Gpu::open()?;
@@ -107,9 +113,11 @@ pub fn run(options: &Bench) -> Result<()> {
     write(&results.table, table(&record.options, &record.rows)?.as_bytes())?;
     write_json(&results.record, &record)?;
     write(&results.report, report(&record, &options.out)?.as_bytes())?;
+    write(&results.markdown, markdown(&record).as_bytes())?;
     partial.remove()?;
+    pairs(&record.rows).iter().for_each(|pair| println!("{pair}"));
     trades(&record.rows).iter().for_each(|trade| println!("{trade}"));
-    println!("{}, {}", results.table.display(), results.record.display());
+    println!("{}, {}, {}", results.table.display(), results.record.display(), results.markdown.display());
     println!("Report: {}", results.report.display());
     if let Some(old) = old {
         println!("{}", changes(&old, &record)?);

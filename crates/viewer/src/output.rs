@@ -19,6 +19,8 @@ pub enum Kind {
     Csv,
     /// A page with this mark of the command that writes it.
     Html(&'static str),
+    /// The same for a text with tables.
+    Markdown(&'static str),
     /// An array for NumPy, described by the JSON file of the same name.
     Npy,
 }
@@ -30,6 +32,7 @@ impl Kind {
             Self::Json(_) => "json",
             Self::Csv => "csv",
             Self::Html(_) => "html",
+            Self::Markdown(_) => "md",
             Self::Npy => "npy",
         }
     }
@@ -39,7 +42,7 @@ impl Kind {
         match self {
             Self::Png => bytes.starts_with(b"\x89PNG\r\n\x1a\n"),
             Self::Csv => bytes.starts_with(b"scene,"),
-            Self::Html(mark) => String::from_utf8_lossy(bytes).contains(mark),
+            Self::Html(mark) | Self::Markdown(mark) => String::from_utf8_lossy(bytes).contains(mark),
             // NAME.npy and NAME.se.npy have the record NAME.json.
             Self::Npy => {
                 let named = path.with_extension("");

@@ -147,7 +147,7 @@ fn a_shot_writes_a_picture_and_a_record_whose_texels_are_those_of_its_viewports(
 #[test]
 fn a_bench_writes_a_table_a_record_and_the_pictures_that_it_names() {
     let directory = tempfile::tempdir().unwrap();
-    let out = directory.path().join("results");
+    let (out, cache) = (directory.path().join("results"), directory.path().join("cache"));
     let arguments = [
         "bench",
         "--scenes",
@@ -163,6 +163,8 @@ fn a_bench_writes_a_table_a_record_and_the_pictures_that_it_names() {
         "--height",
         "360",
         "--quick",
+        "--cache",
+        path_text(&cache),
         "--out",
         path_text(&out),
     ];
@@ -185,6 +187,16 @@ fn a_bench_writes_a_table_a_record_and_the_pictures_that_it_names() {
     }
     assert!(rows[1]["texels"].as_u64().unwrap() < 1024 * 1024 / 2, "the adaptive map is the smaller one");
     assert_eq!(rows[1]["comparison"]["violation_share"], 0.0);
+
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("data:image/jpeg;base64,") && !page.contains("src='contact"), "the page holds its pictures");
+    let again = viewer(&["report", path_text(&out)]);
+    assert!(again.status.success() && fs::read_to_string(out.join("report.html")).unwrap() == page);
+
+    let against = viewer(&[&arguments[..], &["--against", path_text(&out.join("bench.json"))]].concat());
+    let changes = String::from_utf8_lossy(&against.stdout).into_owned();
+    assert!(against.status.success() && changes.contains("2 rows compared"), "{changes}");
+    assert!(!changes.contains(": error ") && !changes.contains(": map "), "the same command draws the same: {changes}");
 
     let old = directory.path().join("old.json");
     fs::write(&old, r#"{ "schema": "scumble/bench/1" }"#).unwrap();

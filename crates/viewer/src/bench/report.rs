@@ -6,7 +6,6 @@ mod pareto;
 mod paths;
 mod pictures;
 mod ratios;
-mod reference;
 mod summary;
 mod walks;
 
@@ -15,8 +14,8 @@ use std::path::Path;
 use anyhow::Result;
 
 use crate::bench::record::BenchRecord;
+use crate::bench::reference::pairs;
 use crate::bench::report::figure::color;
-use crate::bench::report::reference::pairs;
 use crate::bench::row::Row;
 use crate::bench::trade::trades;
 use crate::statistics::Spread;

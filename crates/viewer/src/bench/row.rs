@@ -206,7 +206,12 @@ impl fmt::Display for Row {
             write!(formatter, "  {total:>7.1} ms")?;
         }
         let penumbra = &self.comparison.penumbra;
-        write!(formatter, "  penumbra RMS {:.4} p99 {:.3} bias {:+.4}", penumbra.rms, penumbra.p99, penumbra.bias)?;
+        if penumbra.pixels > 0 {
+            write!(formatter, "  penumbra RMS {:.4} p99 {:.3} bias {:+.4}", penumbra.rms, penumbra.p99, penumbra.bias)?;
+        }
+        if let Some(error) = self.light_error() {
+            write!(formatter, "  light {error:.4}")?;
+        }
         formatter.write_str(if self.is_capped() { "  capped" } else { "" })
     }
 }

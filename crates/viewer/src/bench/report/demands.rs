@@ -6,10 +6,10 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::bench::demand::DemandHistogram;
+use crate::bench::reference::Pair;
 use crate::bench::report::figure::{
     Area, DrawError, GREY, GRID, INK, color, log_range, log_ticks, panels, short, text,
 };
-use crate::bench::report::reference::Pair;
 use crate::bench::row::Row;
 
 /// Panels in a row.

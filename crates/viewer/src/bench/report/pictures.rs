@@ -9,7 +9,7 @@ use base64::encode;
 use image::ImageFormat;
 use image::codecs::jpeg::JpegEncoder;
 
-use crate::bench::report::reference::Pair;
+use crate::bench::reference::Pair;
 
 /// JPEG quality at which texels of a shadow's edge keep their contrast.
 const QUALITY: u8 = 92;

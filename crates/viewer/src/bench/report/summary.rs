@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::bench::report::reference::Pair;
+use crate::bench::reference::Pair;
 use crate::bench::row::Row;
 use crate::bench::trade::{Place, Trade, Verdict};
 
@@ -108,7 +108,7 @@ fn span(values: impl Iterator<Item = f64>, digits: usize, digits_below_10: usize
 mod tests {
     use super::*;
     use crate::bench::examples::row;
-    use crate::bench::report::reference::pairs;
+    use crate::bench::reference::pairs;
     use crate::bench::trade::trades;
 
     #[test]

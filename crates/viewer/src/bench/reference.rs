@@ -1,5 +1,7 @@
 //! The fixed map that an adaptive one is set beside, and what the one is of the other.
 
+use std::fmt;
+
 use crate::bench::row::Row;
 use crate::cli::Size;
 
@@ -60,6 +62,23 @@ impl Pair<'_> {
     pub fn frame_rate_ratio(&self) -> Option<f64> {
         let drawing = self.adaptive.times_ms.get("drawing")?.median;
         Some((self.fixed.total_ms()? + drawing) / (self.adaptive.total_ms()? + drawing))
+    }
+}
+
+impl fmt::Display for Pair<'_> {
+    /// One line for a terminal.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (key, fixed) = (&self.adaptive.key, &self.fixed.key.size);
+        write!(formatter, "{} {} adaptive against {fixed}: ", key.scene, key.filter())?;
+        write!(formatter, "{:.1} times fewer texels", self.fewer_texels())?;
+        let ratios = [
+            ("the time", self.time_ratio()),
+            ("the frame rate", self.frame_rate_ratio()),
+            ("the error", self.error_ratio()),
+            ("the error against the light", self.light_error_ratio()),
+        ];
+        let known = ratios.iter().filter_map(|(what, ratio)| Some((what, (*ratio)?)));
+        known.into_iter().try_for_each(|(what, ratio)| write!(formatter, ", x {ratio:.2} {what}"))
     }
 }
 

@@ -1,0 +1,132 @@
+//! bench.md: the run as two tables for a repository, where results of many devices stand beside one another.
+
+use std::fmt::Write;
+
+use crate::bench::record::BenchRecord;
+use crate::bench::reference::{Pair, pairs};
+use crate::bench::row::Row;
+use crate::bench::trade::{Place, trades};
+use crate::statistics::Spread;
+
+/// By this a run knows the tables of a former one.
+pub const MARKDOWN_MARK: &str = "<!-- scumble-viewer bench -->";
+
+/// The page.
+pub fn markdown(record: &BenchRecord) -> String {
+    let (options, machine) = (&record.options, &record.machine);
+    let mut page = format!(
+        "{MARKDOWN_MARK}\n# {}\n\n{}, {}; scumble {}{}. {} x {} pixels, medians (quartiles) of {} frames in which the sizes took \
+         turns; the ratio is {} ({}). Adaptive maps have {} texels a side at most.\n",
+        machine.device,
+        machine.driver,
+        machine.backend,
+        machine.version,
+        machine.git_commit.as_ref().map_or_else(String::new, |commit| format!(" ({commit})")),
+        options.width,
+        options.height,
+        options.frames,
+        record.ratio.value,
+        record.ratio.source,
+        options.cap,
+    );
+    page += "\n## Adaptive against fixed\n\n| scene | filter | fixed | adaptive | texels, times fewer | time | of it, size | RMS error, \
+             penumbra | against the light | frame rate | error in equal time | time for equal error |\n\
+             |---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    for pair in pairs(&record.rows) {
+        page += &ratios(&pair, record);
+    }
+    page += "\nAll ratios are adaptive over fixed. *Of it, size*: over a fixed map that skips filters as the adaptive one does. \
+             *Frame rate*: with receivers and shading. The last two are over the curve of all fixed sizes.\n\n## All sizes\n\n\
+             | scene | filter | size | texels | million | depth, ms | demand, ms | evaluation, ms | total, ms | RMS, penumbra | 99 % | \
+             against the light | tilted edges | violation |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    for row in &record.rows {
+        page += &line(row);
+    }
+    page
+}
+
+fn ratios(pair: &Pair<'_>, record: &BenchRecord) -> String {
+    let trade = trades(&record.rows).into_iter().find(|trade| trade.key == pair.adaptive.key);
+    let place = |place: Option<Place>, below: &str, above: &str| match place {
+        None => "-".to_owned(),
+        Some(Place::Ratio(ratio)) => format!("{ratio:.2}"),
+        Some(Place::BelowAll) => below.to_owned(),
+        Some(Place::AboveAll) => above.to_owned(),
+    };
+    format!(
+        "| {} | {} | {} | {}{} | {:.1} | {} | {} | {} | {} | {} | {} | {} |\n",
+        pair.adaptive.key.scene,
+        pair.adaptive.key.filter(),
+        pair.fixed.sizes_words(),
+        pair.adaptive.sizes_words(),
+        if pair.adaptive.is_capped() { " (cap)" } else { "" },
+        pair.fewer_texels(),
+        two_digits(pair.time_ratio()),
+        two_digits(pair.time_ratio_of_size(&record.rows)),
+        two_digits(pair.error_ratio()),
+        two_digits(pair.light_error_ratio()),
+        two_digits(pair.frame_rate_ratio()),
+        place(trade.as_ref().map(|trade| trade.error_at_equal_time), "faster than all", "slower than all"),
+        place(trade.as_ref().map(|trade| trade.time_at_equal_error), "finer than all", "coarser than all"),
+    )
+}
+
+fn line(row: &Row) -> String {
+    let mut line = format!(
+        "| {} | {} | {} | {}{} | {:.2} |",
+        row.key.scene,
+        row.key.filter(),
+        row.key.size,
+        row.sizes_words(),
+        if row.key.is_adaptive() && row.is_capped() { " (cap)" } else { "" },
+        row.texels as f64 * 1e-6
+    );
+    for part in ["depth", "demand", "evaluation", "total"] {
+        let _ = match row.times_ms.get(part) {
+            Some(Spread { median, lower_quartile, upper_quartile }) => {
+                write!(line, " {median:.1} ({lower_quartile:.1} to {upper_quartile:.1}) |")
+            }
+            None => write!(line, " - |"),
+        };
+    }
+    let percent = |share: Option<f64>| share.map_or("-".into(), |share| format!("{:.0} %", 100.0 * share));
+    let penumbra = (row.key.method != "none").then_some(&row.comparison.penumbra);
+    let _ = writeln!(
+        line,
+        " {} | {} | {} | {} | {} |",
+        penumbra.map_or("-".into(), |error| format!("{:.4}", error.rms)),
+        penumbra.map_or("-".into(), |error| format!("{:.3}", error.p99)),
+        row.light_error().map_or("-".into(), |error| format!("{error:.4}")),
+        percent(row.comparison.edges.map(|edges| edges.tilt_visible_share)),
+        percent(row.comparison.violation_share),
+    );
+    line
+}
+
+fn two_digits(ratio: Option<f64>) -> String {
+    ratio.map_or("-".into(), |ratio| format!("{ratio:.2}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::examples;
+
+    #[test]
+    fn every_row_of_a_table_has_the_cells_of_its_header() {
+        let mut rows = vec![examples::row("yard", "none", "2048", 5.0, 0.2)];
+        rows.extend(["512", "2048", "adaptive"].map(|size| examples::row("yard", "pcf", size, 9.0, 0.1)));
+        rows[3].times_ms.clear();
+        let page = markdown(&examples::record(rows));
+        let tables: Vec<Vec<usize>> = page
+            .split("\n\n")
+            .filter(|part| part.starts_with('|'))
+            .map(|table| table.lines().map(|line| line.matches('|').count()).collect())
+            .collect();
+        assert_eq!(tables.len(), 2);
+        for cells in &tables {
+            assert!(cells.iter().all(|count| count == &cells[0]), "{page}");
+        }
+        assert_eq!((tables[0].len(), tables[1].len()), (3, 6));
+    }
+}
