@@ -54,6 +54,7 @@ mod kernel;
 mod light;
 mod policy;
 mod polyhedron;
+mod presets;
 mod relation;
 mod relation_file;
 mod settings;
