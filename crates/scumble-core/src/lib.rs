@@ -3,7 +3,8 @@
 //! A filter of radius r hides texels up to a = r / c (Kreuzer 2017: c = 3.47, measured with people). So the softness
 //! that a light asks for decides how many texels its map needs, and a soft shadow needs few. One frame:
 //!
-//! 1. [`fit`] limits the light's view to what the observer sees: [`Fit`], with its extent L in x and y.
+//! 1. [`fit`] limits the light's view to what the observer sees: [`Fit`], with its extent L in x and y. [`cascades`] makes
+//!    one for each of the slices into which [`Splits`] cuts the view; all that follows is done for each.
 //! 2. The screen's demand is its smallest filter radius r, [`Demand`]: the filter's own radius for percentage closer
 //!    filtering, measured from the last map for soft shadows.
 //! 3. [`Relation`] turns that into texels of r / c, and N = c L / r of them, x and y apart.
@@ -42,11 +43,11 @@
 //!
 //! Lengths are metres, angles radians. Matrices are named `to_from_from`: `light_from_world` takes world coordinates to
 //! light space. World space is right-handed; clip space is wgpu's. This crate knows no GPU, file, clock or window.
-//! It does not split views into cascades.
 
 mod aabb;
 mod bias;
 mod camera;
+mod cascade;
 mod error;
 pub mod filter;
 mod fit;
@@ -58,10 +59,12 @@ mod presets;
 mod relation;
 mod relation_file;
 mod settings;
+mod split;
 
 pub use aabb::Aabb;
 pub use bias::{Bias, ReceiverPlane};
 pub use camera::Camera;
+pub use cascade::{Cascade, cascades, slices_of};
 pub use error::Error;
 pub use filter::Taps;
 pub use fit::{Fit, fit};
@@ -74,3 +77,4 @@ pub use relation_file::{
     RelationFile, SCHEMA, SessionHash,
 };
 pub use settings::{Filter, Settings, pixel_footprint_world};
+pub use split::Splits;
