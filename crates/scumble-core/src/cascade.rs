@@ -1,9 +1,9 @@
 //! The maps of one light: one, or a fit for each slice of the observer's view.
 //!
-//! One texel for the whole view of a landscape is either too coarse beside the observer or wasted on the distance (z-partitioning in the course of
-//! Eisemann and others). A slice has a light-space box, a lattice and a texel of its own. Which slice a point belongs
-//! to is decided by its view depth and not by which box holds it: a box grows and shrinks with its texel and the filter's
-//! border, a slice does not, so what a map is asked for does not depend on what it was given.
+//! One texel for the whole view of a landscape is either too coarse beside the observer or wasted on the distance
+//! (z-partitioning in the course of Eisemann and others). A slice has a light-space box, a lattice and a texel of its own.
+//! Which slice a point belongs to is decided by its view depth and not by which box holds it: a box grows and shrinks with
+//! its texel and the filter's border, a slice does not, so what a map is asked for does not depend on what it was given.
 //!
 //! Only directional light is split. A spot's own perspective already gives more texels to what is near it.
 

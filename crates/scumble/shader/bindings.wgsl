@@ -1,12 +1,14 @@
-// What every shadow shader reads: one uniform block for the lights, one for the taps, the maps and their sampler.
+// What every shadow shader reads: one uniform block for lights and maps, one for the taps, the maps and their sampler.
 //
 // Spaces: *world* is relative to the origin given to `Shadows`; *light* is that of `scumble_core::Light` with z turned
 // round, so that z is the depth along the light; the *reference plane* is any plane across a directional light and the
 // near plane of a spot; *map depth* is what the map holds, 0 at `depth_near` and 1 at `depth_far`; *texels* count from
-// the corner of the light's viewport.
+// the corner of a map's viewport.
 // Each struct has a `#[repr(C)]` twin in `src/uniforms.rs`; a test compares offsets and constants.
 
 const SHADOW_LIGHTS_MAX: u32 = 4u;
+const SHADOW_CASCADES_MAX: u32 = 4u;
+const SHADOW_MAPS_MAX: u32 = 16u;
 const SHADOW_PCF_TAPS: u32 = 25u;
 const SHADOW_BLOCKER_TAPS: u32 = 16u;
 
@@ -18,7 +20,7 @@ const SHADOW_FILTER_UPLOADED: u32 = 3u;
 // The filter, as a pipeline constant for a compiler to fold, or as it was uploaded.
 override shadow_filter: u32 = 3u;
 
-struct ShadowLight {
+struct ShadowMap {
     clip_from_world: mat4x4f,
     light_from_world: mat4x4f,
     // Size of the viewport, texels.
@@ -45,14 +47,26 @@ struct ShadowLight {
     bias_rounding_world: f32,
     // Largest slope of a receiver against the light that is followed: a tangent.
     slope_max: f32,
-    // 0 where the light has no map and everything is lit.
+    // 0 where nothing on screen needs the map and everything is lit.
     has_map: u32,
     filter_kind: u32,
     padding: vec2u,
 }
 
+// The maps of a light: consecutive, one for each slice of the view from the nearest on.
+struct ShadowLight {
+    // View depths at which the first slices end; infinite (the largest float) from the last slice on.
+    slice_ends: vec3f,
+    // 0 where the plan has no such light.
+    map_count: u32,
+    first_map: u32,
+}
+
 struct ShadowLights {
+    maps: array<ShadowMap, SHADOW_MAPS_MAX>,
     lights: array<ShadowLight, SHADOW_LIGHTS_MAX>,
+    // View depth of the plan's camera: dot with (position, 1).
+    view_depth: vec4f,
     // Side in pixels of the blocks of `shadow_blocks`; 0 where they are not of this frame.
     block_px: u32,
 }

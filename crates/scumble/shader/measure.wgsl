@@ -1,10 +1,10 @@
-// The demand pass: the smallest filter radius on screen, by light (Kreuzer 2017, Eq. 5.12 as a minimum of radii).
+// The demand pass: the smallest filter radius on screen, by map (Kreuzer 2017, Eq. 5.12 as a minimum of radii).
 //
-// One invocation a pixel and light over the depth prepass. A fragment counts where its visibility is partial and at
-// least two samples found a blocker. Its radius is clamped below by `radius_floor_world` and by what one pixel can
-// show,
-// `radius_per_footprint` times the pixel's footprint at the reference plane. Bits of positive floats keep their order,
-// so the minimum is an atomic minimum of u32; 0x7F800000, infinity, says that nothing was written.
+// One invocation a pixel and light over the depth prepass, which asks the map that shading reads there. A fragment counts
+// where its visibility is partial and at least two samples found a blocker. Its radius is clamped below by
+// `radius_floor_world` and by what one pixel can show, `radius_per_footprint` times the pixel's footprint at the reference
+// plane. Bits of positive floats keep their order, so the minimum is an atomic minimum of u32; 0x7F800000, infinity, says
+// that nothing was written.
 
 struct Measure {
     eye: vec3f,
@@ -31,11 +31,12 @@ const NO_PLANE: f32 = 1e30;
 
 @group(1) @binding(0) var<uniform> measure: Measure;
 @group(1) @binding(1) var prepass: texture_depth_2d;
-@group(1) @binding(2) var<storage, read_write> demand: array<atomic<u32>, SHADOW_LIGHTS_MAX>;
+@group(1) @binding(2) var<storage, read_write> demand: array<atomic<u32>, SHADOW_MAPS_MAX>;
 // What each measured pixel is, SHADOW_BLOCK_..., a layer a light.
 @group(1) @binding(3) var corners: texture_storage_2d_array<r32uint, write>;
 
-var<workgroup> smallest: atomic<u32>;
+// By slice of the light.
+var<workgroup> smallest: array<atomic<u32>, SHADOW_CASCADES_MAX>;
 
 fn ray_at(pixel: vec2f) -> vec3f {
     return measure.ray_corner + pixel.x * measure.ray_x + pixel.y * measure.ray_y;
@@ -87,54 +88,60 @@ fn normal_at(pixel: vec2i, size: vec2i, here: vec3f) -> vec3f {
 
 // Width of a pixel at the receiver, projected onto the reference plane. CPU twin:
 // `scumble_core::pixel_footprint_world`.
-fn footprint(light: u32, here: vec3f, light_depth: f32) -> f32 {
+fn footprint(map: u32, here: vec3f, light_depth: f32) -> f32 {
     let at_receiver = dot(here - measure.eye, measure.forward) * measure.pixel_at_unit_distance;
-    if shadow_lights.lights[light].is_spot == 1u {
-        return at_receiver * shadow_lights.lights[light].depth_near / light_depth;
+    if shadow_lights.maps[map].is_spot == 1u {
+        return at_receiver * shadow_lights.maps[map].depth_near / light_depth;
     }
     return at_receiver;
 }
 
 // Whether the surface looks towards the light, no steeper than the bias follows: beyond, it shadows itself.
-fn faces_light(light: u32, normal_light: vec3f, ray_light: vec3f) -> bool {
+fn faces_light(map: u32, normal_light: vec3f, ray_light: vec3f) -> bool {
     let along = dot(normal_light, ray_light);
-    let slope_max = shadow_lights.lights[light].slope_max;
+    let slope_max = shadow_lights.maps[map].slope_max;
     return along < 0.0 && along * along * (1.0 + slope_max * slope_max) >= dot(ray_light, ray_light);
 }
 
-// What a fragment tells: bits of the radius that it needs, or MEASURE_NOTHING; and what it is for the pixels around it.
+// What a fragment tells: bits of the radius that it needs of a map, or MEASURE_NOTHING; and what it is for the pixels
+// around it.
 struct Found {
     radius_bits: u32,
     block: u32,
+    map: u32,
 }
 
 // The sky, and what turns its back on the light, say nothing of the pixels around; a crease has no normal to tell.
 fn found_at(light: u32, pixel: vec2i, size: vec2i) -> Found {
-    if depth_at(pixel) >= 1.0 || shadow_lights.lights[light].has_map == 0u {
-        return Found(MEASURE_NOTHING, 0u);
+    if depth_at(pixel) >= 1.0 {
+        return Found(MEASURE_NOTHING, 0u, SHADOW_NO_MAP);
     }
     let here = surface_at(pixel);
+    let map = shadow_map_of(light, here);
+    if map == SHADOW_NO_MAP {
+        return Found(MEASURE_NOTHING, 0u, map);
+    }
     let normal = normal_at(pixel, size, here);
-    let position_light = (shadow_lights.lights[light].light_from_world * vec4f(here, 1.0)).xyz;
-    let normal_light = (shadow_lights.lights[light].light_from_world * vec4f(normal, 0.0)).xyz;
-    let ray_light = select(vec3f(0.0, 0.0, 1.0), position_light, shadow_lights.lights[light].is_spot == 1u);
-    if !faces_light(light, normal_light, ray_light) {
-        return Found(MEASURE_NOTHING, select(SHADOW_BLOCK_MIXED, 0u, dot(normal_light, ray_light) > 0.0));
+    let position_light = (shadow_lights.maps[map].light_from_world * vec4f(here, 1.0)).xyz;
+    let normal_light = (shadow_lights.maps[map].light_from_world * vec4f(normal, 0.0)).xyz;
+    let ray_light = select(vec3f(0.0, 0.0, 1.0), position_light, shadow_lights.maps[map].is_spot == 1u);
+    if !faces_light(map, normal_light, ray_light) {
+        return Found(MEASURE_NOTHING, select(SHADOW_BLOCK_MIXED, 0u, dot(normal_light, ray_light) > 0.0), map);
     }
 
     let sample = shadow_sample(light, here, normal, vec2f(pixel) + 0.5);
     if sample.visibility == 1.0 {
-        return Found(MEASURE_NOTHING, SHADOW_BLOCK_LIT);
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_LIT, map);
     }
     if sample.visibility == 0.0 {
-        return Found(MEASURE_NOTHING, SHADOW_BLOCK_UMBRA);
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_UMBRA, map);
     }
-    let guard = max(measure.radius_floor_world, measure.radius_per_footprint * footprint(light, here, position_light.z));
+    let guard = max(measure.radius_floor_world, measure.radius_per_footprint * footprint(map, here, position_light.z));
     let radius = max(sample.radius_plane, guard);
     if sample.blockers < 2u || !(radius > 0.0) {
-        return Found(MEASURE_NOTHING, SHADOW_BLOCK_MIXED);
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_MIXED, map);
     }
-    return Found(min(bitcast<u32>(radius), MEASURE_NOTHING), SHADOW_BLOCK_MIXED);
+    return Found(min(bitcast<u32>(radius), MEASURE_NOTHING), SHADOW_BLOCK_MIXED, map);
 }
 
 @compute @workgroup_size(8, 8)
@@ -144,20 +151,22 @@ fn measure_demand(
 ) {
     let light = invocation.z;
     let size = vec2i(textureDimensions(prepass));
-    if index == 0u {
-        atomicStore(&smallest, MEASURE_NOTHING);
+    if index < SHADOW_CASCADES_MAX {
+        atomicStore(&smallest[index], MEASURE_NOTHING);
     }
     workgroupBarrier();
     if all(invocation.xy < textureDimensions(corners)) {
         let found = found_at(light, min(vec2i(invocation.xy * measure.stride), size - 1), size);
         textureStore(corners, invocation.xy, light, vec4u(found.block, 0u, 0u, 0u));
         if found.radius_bits < MEASURE_NOTHING {
-            atomicMin(&smallest, found.radius_bits);
+            atomicMin(&smallest[found.map - shadow_lights.lights[light].first_map], found.radius_bits);
         }
     }
     workgroupBarrier();
-    let group_smallest = atomicLoad(&smallest);
-    if index == 0u && group_smallest < MEASURE_NOTHING {
-        atomicMin(&demand[light], group_smallest);
+    if index < shadow_lights.lights[light].map_count {
+        let group_smallest = atomicLoad(&smallest[index]);
+        if group_smallest < MEASURE_NOTHING {
+            atomicMin(&demand[shadow_lights.lights[light].first_map + index], group_smallest);
+        }
     }
 }

@@ -13,42 +13,42 @@ struct ShadowBlockers {
     mean_depth: f32,
 }
 
-fn shadow_filter_radius(light: u32, receiver_depth: f32, blocker_depth: f32) -> f32 {
-    let size = shadow_lights.lights[light].light_size;
+fn shadow_filter_radius(map: u32, receiver_depth: f32, blocker_depth: f32) -> f32 {
+    let size = shadow_lights.maps[map].light_size;
     let distance = max(receiver_depth - blocker_depth, 0.0);
-    if shadow_lights.lights[light].is_spot == 1u {
-        return size * distance / blocker_depth * shadow_lights.lights[light].depth_near / receiver_depth;
+    if shadow_lights.maps[map].is_spot == 1u {
+        return size * distance / blocker_depth * shadow_lights.maps[map].depth_near / receiver_depth;
     }
     return size * distance;
 }
 
 // The filter's radius for a blocker at the near plane of the map; under a spot, at SHADOW_SEARCH_SHARE of the
 // receiver's depth where the near plane is nearer.
-fn shadow_search_radius(light: u32, receiver_depth: f32) -> f32 {
-    var nearest = shadow_lights.lights[light].depth_near;
-    if shadow_lights.lights[light].is_spot == 1u {
+fn shadow_search_radius(map: u32, receiver_depth: f32) -> f32 {
+    var nearest = shadow_lights.maps[map].depth_near;
+    if shadow_lights.maps[map].is_spot == 1u {
         nearest = max(nearest, SHADOW_SEARCH_SHARE * receiver_depth);
     }
-    return shadow_filter_radius(light, receiver_depth, nearest);
+    return shadow_filter_radius(map, receiver_depth, nearest);
 }
 
 // Map depths in front of the receiver's tangent plane within `radius_plane`, one texel a tap.
-fn shadow_find_blockers(light: u32, receiver: ShadowReceiver, radius_plane: f32, rotation: mat2x2f) -> ShadowBlockers {
-    let viewport = shadow_lights.lights[light].viewport_texels;
-    let layer = shadow_lights.lights[light].layer;
+fn shadow_find_blockers(map: u32, receiver: ShadowReceiver, radius_plane: f32, rotation: mat2x2f) -> ShadowBlockers {
+    let viewport = shadow_lights.maps[map].viewport_texels;
+    let layer = shadow_lights.maps[map].layer;
     var count = 0u;
     var sum = 0.0;
     for (var i = 0u; i < SHADOW_BLOCKER_TAPS; i++) {
         let pair = shadow_taps.blocker[i / 2u];
         let tap = select(pair.xy, pair.zw, (i & 1u) == 1u);
         let offset = radius_plane * (rotation * tap);
-        let texel = receiver.texel + offset * shadow_lights.lights[light].texel_from_plane;
+        let texel = receiver.texel + offset * shadow_lights.maps[map].texel_from_plane;
         let place = vec2i(clamp(texel, vec2f(0.0), viewport - 1.0));
         let depth = textureLoad(shadow_maps, place, layer, 0);
         let is_inside = all(texel >= vec2f(0.0)) && all(texel < viewport);
         if is_inside && depth < shadow_depth_at(receiver, offset) {
             count += 1u;
-            sum += shadow_light_depth(light, depth);
+            sum += shadow_light_depth(map, depth);
         }
     }
     return ShadowBlockers(count, select(receiver.light_depth, sum / f32(max(count, 1u)), count > 0u));

@@ -22,10 +22,10 @@ struct ShadowReceiver {
 }
 
 // Light-space depth of a map depth.
-fn shadow_light_depth(light: u32, map_depth: f32) -> f32 {
-    let near = shadow_lights.lights[light].depth_near;
-    let far = shadow_lights.lights[light].depth_far;
-    if shadow_lights.lights[light].is_spot == 1u {
+fn shadow_light_depth(map: u32, map_depth: f32) -> f32 {
+    let near = shadow_lights.maps[map].depth_near;
+    let far = shadow_lights.maps[map].depth_far;
+    if shadow_lights.maps[map].is_spot == 1u {
         return near * far / (far - map_depth * (far - near));
     }
     return near + map_depth * (far - near);
@@ -40,35 +40,35 @@ fn shadow_tangent(n_xy: vec2f, along: f32, longest: f32) -> vec2f {
     return n_xy * (select(-1.0, 1.0, along < 0.0) * longest / size);
 }
 
-fn shadow_receiver(light: u32, position_world: vec3f, normal_world: vec3f) -> ShadowReceiver {
+fn shadow_receiver(map: u32, position_world: vec3f, normal_world: vec3f) -> ShadowReceiver {
     let position = vec4f(position_world, 1.0);
-    let clip = shadow_lights.lights[light].clip_from_world * position;
-    let p = (shadow_lights.lights[light].light_from_world * position).xyz;
-    let m = (shadow_lights.lights[light].light_from_world * vec4f(normal_world, 0.0)).xyz;
-    let near = shadow_lights.lights[light].depth_near;
-    let far = shadow_lights.lights[light].depth_far;
-    let slope_max = shadow_lights.lights[light].slope_max;
+    let clip = shadow_lights.maps[map].clip_from_world * position;
+    let p = (shadow_lights.maps[map].light_from_world * position).xyz;
+    let m = (shadow_lights.maps[map].light_from_world * vec4f(normal_world, 0.0)).xyz;
+    let near = shadow_lights.maps[map].depth_near;
+    let far = shadow_lights.maps[map].depth_far;
+    let slope_max = shadow_lights.maps[map].slope_max;
 
     var receiver: ShadowReceiver;
     let ndc = clip.xyz / clip.w;
-    receiver.texel = (ndc.xy * vec2f(0.5, -0.5) + 0.5) * shadow_lights.lights[light].viewport_texels;
+    receiver.texel = (ndc.xy * vec2f(0.5, -0.5) + 0.5) * shadow_lights.maps[map].viewport_texels;
     receiver.depth = ndc.z;
     receiver.light_depth = p.z;
 
     // Tangent plane, and map depth per length: across a texel at the receiver, and per bias.
     var tangent = shadow_tangent(m.xy, m.z, slope_max);
-    var texel = shadow_lights.lights[light].texel_world;
+    var texel = shadow_lights.maps[map].texel_world;
     var depth_per_length = 1.0 / (far - near);
     receiver.slope = tangent * depth_per_length;
-    if shadow_lights.lights[light].is_spot == 1u {
+    if shadow_lights.maps[map].is_spot == 1u {
         tangent = shadow_tangent(m.xy, dot(m, vec3f(p.xy / p.z, 1.0)), slope_max);
         texel *= p.z / near;
         receiver.slope = tangent * (far / ((far - near) * p.z));
         depth_per_length = near * far / ((far - near) * p.z * p.z);
     }
-    let bias_texels = shadow_lights.lights[light].bias_constant_texels
-        + shadow_lights.lights[light].bias_slope_texels * (abs(tangent.x) + abs(tangent.y));
-    receiver.bias = depth_per_length * (texel * bias_texels + shadow_lights.lights[light].bias_rounding_world);
+    let bias_texels = shadow_lights.maps[map].bias_constant_texels
+        + shadow_lights.maps[map].bias_slope_texels * (abs(tangent.x) + abs(tangent.y));
+    receiver.bias = depth_per_length * (texel * bias_texels + shadow_lights.maps[map].bias_rounding_world);
     return receiver;
 }
 

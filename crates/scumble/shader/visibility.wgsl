@@ -9,53 +9,54 @@ struct ShadowSample {
     blockers: u32,
 }
 
-fn shadow_filter_of(light: u32) -> u32 {
+fn shadow_filter_of(map: u32) -> u32 {
     if shadow_filter == SHADOW_FILTER_UPLOADED {
-        return shadow_lights.lights[light].filter_kind;
+        return shadow_lights.maps[map].filter_kind;
     }
     return shadow_filter;
 }
 
-// Filters a point that has a place in the light's map.
-fn shadow_filtered(light: u32, receiver: ShadowReceiver, frag_coord: vec2f) -> ShadowSample {
-    let kind = shadow_filter_of(light);
+// Filters a point that has a place in a map.
+fn shadow_filtered(map: u32, receiver: ShadowReceiver, frag_coord: vec2f) -> ShadowSample {
+    let kind = shadow_filter_of(map);
     if kind == SHADOW_FILTER_HARD {
-        let visibility = shadow_tap_at(light, receiver, vec2f(0.0));
+        let visibility = shadow_tap_at(map, receiver, vec2f(0.0));
         return ShadowSample(visibility, 0.0, u32(visibility < 1.0));
     }
 
     let rotation = shadow_rotation(vec2u(frag_coord));
     if kind == SHADOW_FILTER_PCF {
-        let radius = shadow_lights.lights[light].radius_world;
-        let visibility = shadow_pcf(light, receiver, radius, rotation);
+        let radius = shadow_lights.maps[map].radius_world;
+        let visibility = shadow_pcf(map, receiver, radius, rotation);
         return ShadowSample(visibility, radius, u32(round((1.0 - visibility) * f32(SHADOW_PCF_TAPS))));
     }
 
-    let radius_min = shadow_lights.lights[light].radius_min_world;
-    let search = max(shadow_search_radius(light, receiver.light_depth), radius_min);
-    let blockers = shadow_find_blockers(light, receiver, search, rotation);
+    let radius_min = shadow_lights.maps[map].radius_min_world;
+    let search = max(shadow_search_radius(map, receiver.light_depth), radius_min);
+    let blockers = shadow_find_blockers(map, receiver, search, rotation);
     if blockers.count == 0u {
         return ShadowSample(1.0, 0.0, 0u);
     }
-    let radius = shadow_filter_radius(light, receiver.light_depth, blockers.mean_depth);
-    let visibility = shadow_pcf(light, receiver, max(radius, radius_min), rotation);
+    let radius = shadow_filter_radius(map, receiver.light_depth, blockers.mean_depth);
+    let visibility = shadow_pcf(map, receiver, max(radius, radius_min), rotation);
     return ShadowSample(visibility, radius, blockers.count);
 }
 
-// Whether a point has no place in a map of the light: everything is lit there.
-fn shadow_is_open(light: u32, receiver: ShadowReceiver) -> bool {
-    return shadow_lights.lights[light].is_spot == 1u && !(receiver.light_depth > 0.0);
+// Whether a point has no place in a map: everything is lit there.
+fn shadow_is_open(map: u32, receiver: ShadowReceiver) -> bool {
+    return shadow_lights.maps[map].is_spot == 1u && !(receiver.light_depth > 0.0);
 }
 
 fn shadow_sample(light: u32, position_world: vec3f, normal_world: vec3f, frag_coord: vec2f) -> ShadowSample {
-    if light >= SHADOW_LIGHTS_MAX || shadow_lights.lights[light].has_map == 0u {
+    let map = shadow_map_of(light, position_world);
+    if map == SHADOW_NO_MAP {
         return ShadowSample(1.0, 0.0, 0u);
     }
-    let receiver = shadow_receiver(light, position_world, normal_world);
-    if shadow_is_open(light, receiver) {
+    let receiver = shadow_receiver(map, position_world, normal_world);
+    if shadow_is_open(map, receiver) {
         return ShadowSample(1.0, 0.0, 0u);
     }
-    return shadow_filtered(light, receiver, frag_coord);
+    return shadow_filtered(map, receiver, frag_coord);
 }
 
 // What all corners of the pixel's block agree on; SHADOW_BLOCK_MIXED where they do not, or none is known.
@@ -71,21 +72,22 @@ fn shadow_block(light: u32, pixel: vec2u) -> u32 {
 // geometric normal `normal_world`; `frag_coord` turns the kernel per pixel. Where the demand pass found the block of
 // pixels around it lit or dark, one lookup that says the same stands for the filter.
 fn shadow_visibility(light: u32, position_world: vec3f, normal_world: vec3f, frag_coord: vec2f) -> f32 {
-    if light >= SHADOW_LIGHTS_MAX || shadow_lights.lights[light].has_map == 0u {
+    let map = shadow_map_of(light, position_world);
+    if map == SHADOW_NO_MAP {
         return 1.0;
     }
-    let receiver = shadow_receiver(light, position_world, normal_world);
-    if shadow_is_open(light, receiver) {
+    let receiver = shadow_receiver(map, position_world, normal_world);
+    if shadow_is_open(map, receiver) {
         return 1.0;
     }
-    if shadow_filter_of(light) != SHADOW_FILTER_HARD {
+    if shadow_filter_of(map) != SHADOW_FILTER_HARD {
         let block = shadow_block(light, vec2u(frag_coord));
         if block == SHADOW_BLOCK_LIT || block == SHADOW_BLOCK_UMBRA {
-            let visibility = shadow_tap_at(light, receiver, vec2f(0.0));
+            let visibility = shadow_tap_at(map, receiver, vec2f(0.0));
             if visibility == select(0.0, 1.0, block == SHADOW_BLOCK_LIT) {
                 return visibility;
             }
         }
     }
-    return shadow_filtered(light, receiver, frag_coord).visibility;
+    return shadow_filtered(map, receiver, frag_coord).visibility;
 }

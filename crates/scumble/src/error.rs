@@ -1,6 +1,6 @@
 //! What can be wrong with what a caller passes in. Each message says what was found and what is allowed.
 
-use crate::uniforms::LIGHTS_MAX;
+use crate::uniforms::{LIGHTS_MAX, MAPS_MAX};
 
 /// Why a call of this crate was refused.
 #[derive(Debug, thiserror::Error)]
@@ -20,7 +20,7 @@ pub enum Error {
         device_limit: u32,
     },
     /// The number of maps is not possible.
-    #[error("{found} lights with maps were asked for; 1 to {LIGHTS_MAX} are possible")]
+    #[error("{found} maps were asked for; 1 to {MAPS_MAX} are possible")]
     MapCount {
         /// What was asked for.
         found: u32,
@@ -35,11 +35,20 @@ pub enum Error {
         /// Layers of the texture.
         allocated: u32,
     },
-    /// More lights than maps were allocated for.
-    #[error("the plan has {found} lights, but maps were allocated for {allocated} (`Options::maps`)")]
+    /// More lights than the shaders know.
+    #[error("the plan has {found} lights; {LIGHTS_MAX} are possible")]
     TooManyLights {
         /// Lights in the call.
         found: usize,
+    },
+    /// More maps than were allocated.
+    #[error(
+        "the plan needs {needed} maps, one for a spot and one for each of a directional light's cascades, but \
+         {allocated} were allocated (`Options::maps`)"
+    )]
+    TooManyMaps {
+        /// Maps of the lights in the call.
+        needed: u32,
         /// Layers of the texture.
         allocated: u32,
     },

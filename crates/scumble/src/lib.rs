@@ -28,12 +28,13 @@
 //! ```
 //!
 //! The caller keeps device, queue, encoder, scene and camera. This crate never submits, never waits, and allocates at
-//! creation, at the first `measure`, and when the prepass changes its size. It has one map a light: no cascades, no
-//! cube maps.
+//! creation, at the first `measure`, and when the prepass changes its size. A directional light has one map or a cascade of
+//! them ([`Options::cascades`]), a spot has one; no cube maps.
 
 mod bindings;
 mod blocks;
 mod counters;
+mod demand;
 mod error;
 mod maps;
 mod measure;
@@ -50,8 +51,8 @@ pub use error::Error;
 pub use measure::NOTHING as MEASURE_NOTHING;
 pub use options::{Options, SizeChoice};
 pub use plan::filter_constant;
-pub use scumble_core::{self, Aabb, Camera, Filter, Light, Settings};
+pub use scumble_core::{self, Aabb, Camera, Filter, Light, Settings, Splits};
 pub use shaders::{CLASSIFY_WGSL, CLEAR_WGSL, FILTER_OVERRIDE, measure_wgsl, shadow_wgsl};
 pub use shadows::Shadows;
-pub use uniforms::{BLOCKER_TAPS, LIGHTS_MAX, PCF_TAPS};
+pub use uniforms::{BLOCKER_TAPS, CASCADES_MAX, LIGHTS_MAX, MAPS_MAX, PCF_TAPS};
 pub use view::{Plan, View};

@@ -1,4 +1,4 @@
-//! The texture that holds every map: one layer a light, allocated once at the cap, of which views use a corner
+//! The texture that holds every map: one layer a map, allocated once at the cap, of which views use a corner
 //! (Kreuzer 2017, Fig. 5.5). Nothing here is created again when a size changes.
 
 use crate::view::View;

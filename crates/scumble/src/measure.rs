@@ -1,4 +1,4 @@
-//! The demand pass on the GPU: smallest filter radius on screen by light, and its way back.
+//! The demand pass on the GPU: smallest filter radius on screen by map, and its way back.
 //!
 //! Steps of one call: the minimum is set to infinity, `shader/measure.wgsl` lowers it over the depth prepass, the
 //! result is copied into the [readback ring](crate::readback). Nothing is submitted and nothing waits.
@@ -10,7 +10,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use crate::blocks::{Blocks, ClassifyPass, corners_of, written_binding};
 use crate::error::Error;
 use crate::readback::Ring;
-use crate::uniforms::{LIGHTS_MAX, MeasureUniform};
+use crate::uniforms::{MAPS_MAX, MeasureUniform};
 
 /// What the shader leaves where no fragment had a penumbra: the bits of infinity.
 pub const NOTHING: u32 = 0x7F80_0000;
@@ -35,9 +35,9 @@ pub struct Measure {
     ring: Ring<Scale>,
 }
 
-/// By light: the reference depth of a spot, 1 for a directional light, `None` where there is no map. A radius over its
+/// By map: the reference depth of a spot, 1 for a directional light, `None` where none is drawn. A radius over its
 /// scale does not depend on the fit at the time.
-pub type Scale = [Option<f64>; LIGHTS_MAX as usize];
+pub type Scale = [Option<f64>; MAPS_MAX as usize];
 
 /// What one measurement is about.
 pub struct Request<'a> {
@@ -51,7 +51,7 @@ pub struct Request<'a> {
     pub stride: u32,
     /// Lights in the uniforms.
     pub light_count: u32,
-    /// Their scales.
+    /// Scales of their maps.
     pub scale: Scale,
 }
 
@@ -73,14 +73,14 @@ impl Measure {
             return Err(Error::NoCompute { needed: STORAGE_BUFFERS, found });
         }
         let layout = bind_group_layout(device);
-        let demand_bytes = u64::from(LIGHTS_MAX) * 4;
+        let demand_bytes = u64::from(MAPS_MAX) * 4;
         let buffer = |label, size, usage| {
             let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
             device.create_buffer(&descriptor)
         };
         let nothing = device.create_buffer_init(&BufferInitDescriptor {
             label: Some("scumble demand start"),
-            contents: bytemuck::cast_slice(&[NOTHING; LIGHTS_MAX as usize]),
+            contents: bytemuck::cast_slice(&[NOTHING; MAPS_MAX as usize]),
             usage: wgpu::BufferUsages::COPY_SRC,
         });
         Ok(Self {
@@ -163,8 +163,8 @@ impl Measure {
         true
     }
 
-    /// The newest result that has come back, by light, in the sense of
-    /// [`LightState::measured`](crate::plan::LightState).
+    /// The newest result that has come back, by map, in the sense of
+    /// [`MapState::measured`](crate::plan::MapState).
     pub fn take(&mut self) -> Option<Vec<Option<Option<f64>>>> {
         let (bytes, scale) = self.ring.take()?;
         let bits: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);

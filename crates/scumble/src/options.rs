@@ -1,10 +1,10 @@
 //! What a renderer chooses beside the method's settings: filter, sizes, number of maps, origin.
 
 use glam::DVec3;
-use scumble_core::Filter;
+use scumble_core::{Filter, Splits};
 
 use crate::error::Error;
-use crate::uniforms::LIGHTS_MAX;
+use crate::uniforms::MAPS_MAX;
 
 /// How the size of a map is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -26,8 +26,12 @@ pub struct Options {
     pub size: SizeChoice,
     /// Whether maps are fitted to what the camera can see (Kreuzer 2017, 3.4.2); else they cover the scene.
     pub fitted: bool,
-    /// Layers of the texture: most lights of a plan, 1 to [`LIGHTS_MAX`].
+    /// Layers of the texture, all that is ever allocated: the most maps that the lights of a plan have together, 1 to
+    /// [`MAPS_MAX`]. A spot has one, a directional light one for each of its `cascades`.
     pub maps: u32,
+    /// Into how many slices the view of a directional light is cut, each with a map of its own box and size. Worth it
+    /// outdoors, where the nearest contact asks for texels that the distance has no use for.
+    pub cascades: Splits,
     /// Origin of the world space that shaders and vertex buffers use, in world coordinates. Put it near the camera or
     /// the scene where coordinates are large: what reaches the GPU is relative to it, in f32.
     pub origin_world: DVec3,
@@ -43,6 +47,7 @@ impl Default for Options {
             size: SizeChoice::Adaptive,
             fitted: true,
             maps: 1,
+            cascades: Splits::default(),
             origin_world: DVec3::ZERO,
             measure_stride: 4,
         }
@@ -58,7 +63,8 @@ impl Options {
         {
             return Err(Error::FixedSize { found, cap });
         }
-        if !(1..=LIGHTS_MAX).contains(&self.maps) {
+        self.cascades.checked()?;
+        if !(1..=MAPS_MAX).contains(&self.maps) {
             return Err(Error::MapCount { found: self.maps });
         }
         if self.measure_stride == 0 {

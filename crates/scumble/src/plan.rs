@@ -1,20 +1,20 @@
 //! From camera, scene and lights to the maps of a frame. Pure: no GPU, and the state of the sizes is copied.
 //!
-//! By light: fit; border, so that the taps of the outermost receiver fall into the map; demand, measured or from
-//! bounds; texel, and the box on its lattice; matrices and uniforms. Demand without a measurement: the radius itself (PCF), the settings' smallest
-//! radius (PCSS), 0 (one tap), so a PCSS map starts at the cap unless `radius_min_world` or `texel_floor_world` bound
-//! it.
+//! By light: slices of the view, and for each: fit; border, so that the taps of the outermost receiver fall into the map;
+//! [demand](crate::demand); texel, and the box on its lattice; matrices and uniforms. The maps of a light are consecutive
+//! layers, of which those that nothing on screen needs stay empty.
 
 use bytemuck::Zeroable;
 use glam::{DMat4, DVec3, Mat4};
 use scumble_core::{
-    Aabb, Bias, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Settings, Size, TexelPolicy, filter, fit,
-    size_achieved,
+    Aabb, Bias, Camera, Cascade, Demand, Filter, Fit, Light, ReceiverPlane, Settings, Size, TexelPolicy, cascades,
+    filter, size_achieved, slices_of,
 };
 
+use crate::demand::{demand, lent};
 use crate::error::Error;
 use crate::options::{Options, SizeChoice};
-use crate::uniforms::{LightUniform, LightsUniform};
+use crate::uniforms::{CASCADES_MAX, LIGHTS_MAX, LightUniform, LightsUniform, MapUniform};
 use crate::view::{Plan, View};
 
 /// Value of the shaders' constant for a filter; see [`FILTER_OVERRIDE`](crate::FILTER_OVERRIDE).
@@ -32,43 +32,90 @@ fn filter_kind(filter: &Filter) -> u32 {
     }
 }
 
-/// State of a light between frames.
+/// State of a map between frames.
 #[derive(Clone, Debug)]
-pub struct LightState {
-    /// Texel of its map.
+pub struct MapState {
+    /// Its texel.
     pub policy: TexelPolicy,
     /// Newest measurement: radius over the reference depth of a spot, radius for other lights; `Some(None)` for no
-    /// penumbra on screen, `None` before the first and where the light had no map.
+    /// penumbra on screen, `None` before the first and where the map was not drawn.
     pub measured: Option<Option<f64>>,
 }
 
-/// Plans a frame; `states` holds one state a light or more.
+/// Plans a frame; `states` holds one state a map of the lights or more.
 pub fn plan(
     settings: &Settings,
     options: &Options,
-    states: &[LightState],
+    states: &[MapState],
     camera: &Camera,
     scene: &Aabb,
     lights: &[Light],
 ) -> Result<Plan, Error> {
-    if lights.len() > states.len() {
-        return Err(Error::TooManyLights { found: lights.len(), allocated: states.len() as u32 });
+    let counts: Vec<u32> = lights.iter().map(|light| slices_of(light, options.fitted, &options.cascades)).collect();
+    let needed = counts.iter().sum();
+    if lights.len() > LIGHTS_MAX as usize {
+        return Err(Error::TooManyLights { found: lights.len() });
+    }
+    if needed as usize > states.len() {
+        return Err(Error::TooManyMaps { needed, allocated: states.len() as u32 });
     }
     let mut plan = Plan {
-        views: Vec::with_capacity(lights.len()),
+        views: Vec::with_capacity(needed as usize),
         policies: states.iter().map(|state| state.policy.clone()).collect(),
-        uniform: LightsUniform::zeroed(),
+        uniform: LightsUniform { view_depth: view_depth(camera, options.origin_world), ..LightsUniform::zeroed() },
     };
-    for (index, (light, state)) in lights.iter().zip(states).enumerate() {
-        let Some(tight) = fit(camera, scene, light, options.fitted)? else { continue };
-        let fit = tight.with_border(border_world(&tight, &options.filter));
-        let demand = demand(settings, &options.filter, &fit, state.measured);
-        let (fit, size) = sized(settings, options, &mut plan.policies[index], fit, demand)?;
-        let view = view(settings, options, index as u32, fit, size);
-        plan.uniform.lights[index] = light_uniform(settings, options, &view);
-        plan.views.push(view);
+    let mut first = 0;
+    for (index, (light, count)) in lights.iter().zip(counts).enumerate() {
+        let slices = cascades(camera, scene, light, options.fitted, &options.cascades)?;
+        plan.uniform.lights[index] = light_uniform(&slices, first, count);
+        for view in views_of_light(settings, options, states, &mut plan.policies, [index as u32, first], slices)? {
+            plan.uniform.maps[view.layer as usize] = map_uniform(settings, options, &view);
+            plan.views.push(view);
+        }
+        first += count;
     }
     Ok(plan)
+}
+/// The maps of one light, whose nearest slice has the layer `first`.
+fn views_of_light(
+    settings: &Settings,
+    options: &Options,
+    states: &[MapState],
+    policies: &mut [TexelPolicy],
+    [light, first]: [u32; 2],
+    slices: Vec<Cascade>,
+) -> Result<Vec<View>, Error> {
+    // Slices that something is in, and what they are asked for.
+    let with_border = |fit: Fit| fit.with_border(border_world(&fit, &options.filter));
+    let maps: Vec<(u32, f64, Fit)> = (0..)
+        .zip(slices)
+        .filter_map(|(slice, cascade)| Some((slice, cascade.depth_end, with_border(cascade.fit?))))
+        .collect();
+    let demands = maps.iter().map(|(slice, _, fit)| {
+        let demand = demand(settings, &options.filter, fit, states[(first + slice) as usize].measured);
+        (demand, fit.extent_world.max_element())
+    });
+    let demands = lent(&demands.collect::<Vec<_>>());
+
+    let view = |((slice, depth_end, fit), demand)| {
+        let layer = first + slice;
+        let (fit, size) = sized(settings, options, &mut policies[layer as usize], fit, demand)?;
+        // Where the cap binds, narrower filters than it hides are widened (Kreuzer 2017, 6.2). A fixed size is left alone.
+        let widens = options.size == SizeChoice::Adaptive && size.capped;
+        let least = if widens { size.radius_min_world } else { 0.0 };
+        Ok(View {
+            light,
+            slice,
+            depth_end,
+            layer,
+            size_texels: size.texels,
+            size,
+            clip_from_world: fit.clip_from_relative(options.origin_world).as_mat4(),
+            fit,
+            radius_min_world: settings.radius_min_world.max(least),
+        })
+    };
+    maps.into_iter().zip(demands).map(view).collect()
 }
 
 /// How far taps reach beyond the outermost receiver, at the reference plane; no further than the light's whole view.
@@ -80,29 +127,6 @@ fn border_world(fit: &Fit, filter: &Filter) -> f64 {
     };
     let outside = (fit.extent_world * fit.scale - fit.extent_world).max_element();
     reach.min(outside.max(0.0))
-}
-
-/// What is asked of a map of this fit.
-fn demand(settings: &Settings, filter: &Filter, fit: &Fit, measured: Option<Option<f64>>) -> Demand {
-    match measured {
-        Some(Some(radius_per_scale)) => Demand::Radius(radius_per_scale * measure_scale(fit)),
-        Some(None) => Demand::Nothing,
-        None => {
-            let radius = match *filter {
-                Filter::Pcf { radius_world } => radius_world,
-                Filter::Hard | Filter::Pcss => 0.0,
-            };
-            Demand::Radius(settings.demand_radius_world(radius, 0.0))
-        }
-    }
-}
-
-/// What a measured radius is divided by to outlive its fit: the reference depth of a spot, 1 otherwise.
-pub fn measure_scale(fit: &Fit) -> f64 {
-    match fit.light {
-        Light::Directional { .. } => 1.0,
-        Light::Spot { .. } => fit.reference_depth(),
-    }
 }
 
 /// The fit with its size: on the lattice of an adaptive texel, or as it is with fixed texels.
@@ -125,23 +149,21 @@ fn sized(
     Ok((fit, size))
 }
 
-fn view(settings: &Settings, options: &Options, light: u32, fit: Fit, size: Size) -> View {
-    // Where the cap binds, narrower filters than it hides are widened (Kreuzer 2017, 6.2). A fixed size is left alone.
-    let widens = options.size == SizeChoice::Adaptive && size.capped;
-    let radius_min_world =
-        if widens { settings.radius_min_world.max(size.radius_min_world) } else { settings.radius_min_world };
-    View {
-        light,
-        layer: light,
-        size_texels: size.texels,
-        size,
-        clip_from_world: fit.clip_from_relative(options.origin_world).as_mat4(),
-        fit,
-        radius_min_world,
+fn light_uniform(slices: &[Cascade], first_map: u32, map_count: u32) -> LightUniform {
+    let mut slice_ends = [f32::MAX; CASCADES_MAX as usize - 1];
+    for (end, slice) in slice_ends.iter_mut().zip(slices) {
+        *end = (slice.depth_end as f32).min(f32::MAX);
     }
+    LightUniform { slice_ends, map_count, first_map, ..LightUniform::zeroed() }
 }
 
-fn light_uniform(settings: &Settings, options: &Options, view: &View) -> LightUniform {
+/// View depth of a point relative to the origin, as a dot product.
+fn view_depth(camera: &Camera, origin_world: DVec3) -> [f32; 4] {
+    let forward = camera.forward();
+    forward.extend(forward.dot(origin_world - camera.eye)).as_vec4().to_array()
+}
+
+fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUniform {
     let fit = &view.fit;
     let texel_world = view.texel_world();
     let (is_spot, light_size, depth_of_zero) = match fit.light {
@@ -158,7 +180,7 @@ fn light_uniform(settings: &Settings, options: &Options, view: &View) -> LightUn
         Filter::Pcf { radius_world } => radius_world,
         Filter::Hard | Filter::Pcss => 0.0,
     };
-    LightUniform {
+    MapUniform {
         clip_from_world: view.clip_from_world.to_cols_array_2d(),
         light_from_world: light_from_world.to_cols_array_2d(),
         viewport_texels: view.size_texels.map(|side| side as f32),

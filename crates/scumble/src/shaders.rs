@@ -1,6 +1,7 @@
 //! The shaders' parts and how they are put together: plain text, no preprocessor.
 
 const BINDINGS: &str = include_str!("../shader/bindings.wgsl");
+const SLICES: &str = include_str!("../shader/slices.wgsl");
 const ROTATION: &str = include_str!("../shader/rotation.wgsl");
 const RECEIVER: &str = include_str!("../shader/receiver.wgsl");
 const PCF: &str = include_str!("../shader/pcf.wgsl");
@@ -15,7 +16,7 @@ pub const CLEAR_WGSL: &str = include_str!("../shader/clear.wgsl");
 pub const CLASSIFY_WGSL: &str = include_str!("../shader/classify.wgsl");
 
 /// Parts of `shadow_visibility`, in the order in which they are joined.
-const PARTS: [&str; 6] = [BINDINGS, ROTATION, RECEIVER, PCF, PCSS, VISIBILITY];
+const PARTS: [&str; 7] = [BINDINGS, SLICES, ROTATION, RECEIVER, PCF, PCSS, VISIBILITY];
 
 /// The pipeline constant that fixes the filter at compile time, so that the branches of the others go away:
 /// `"shadow_filter"` with [`filter_constant`](crate::filter_constant)'s value. Left out, the filter is the uploaded one.

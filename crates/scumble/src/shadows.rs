@@ -4,12 +4,13 @@ use scumble_core::{Aabb, Camera, Filter, Light, Settings, TexelPolicy};
 
 use crate::bindings::Bindings;
 use crate::counters::Counters;
+use crate::demand::measure_scale;
 use crate::error::Error;
 use crate::maps::{MAP_FORMAT, Maps, depth_state};
 use crate::measure::{Measure, Request, Scale};
 use crate::options::Options;
-use crate::plan::{LightState, measure_scale, plan};
-use crate::uniforms::{BLOCKER_TAPS, LIGHTS_MAX, PCF_TAPS};
+use crate::plan::{MapState, plan};
+use crate::uniforms::{BLOCKER_TAPS, MAPS_MAX, PCF_TAPS};
 use crate::view::{Plan, View};
 
 /// Adaptive shadow maps of one renderer. The steps of a frame are at the head of the crate.
@@ -21,7 +22,7 @@ pub struct Shadows {
     maps: Maps,
     bindings: Bindings,
     measure: Option<Measure>,
-    states: Vec<LightState>,
+    states: Vec<MapState>,
     uploaded: Uploaded,
     counters: Counters,
 }
@@ -55,7 +56,7 @@ impl Shadows {
         let options = options.checked(settings.cap)?;
         let maps = Maps::new(device, settings.cap, options.maps);
         let bindings = Bindings::new(device, &maps);
-        let state = LightState { policy: TexelPolicy::new(&settings)?, measured: None };
+        let state = MapState { policy: TexelPolicy::new(&settings)?, measured: None };
         let counters =
             Counters { allocations: 1 + Bindings::ALLOCATIONS, map_bytes: maps.bytes(), ..Counters::default() };
         Ok(Self {
@@ -66,7 +67,7 @@ impl Shadows {
             maps,
             bindings,
             measure: None,
-            uploaded: Uploaded { lights: 0, scale: [None; LIGHTS_MAX as usize] },
+            uploaded: Uploaded { lights: 0, scale: [None; MAPS_MAX as usize] },
             counters,
         })
     }
@@ -83,7 +84,8 @@ impl Shadows {
         &self.options
     }
 
-    /// Changes the options from the next plan on. Nothing is allocated. A different filter forgets what was measured.
+    /// Changes the options from the next plan on. Nothing is allocated. A different filter, or other
+    /// cascades, forget what was measured.
     ///
     /// # Errors
     /// Options out of range, and another number of maps than were allocated.
@@ -92,7 +94,7 @@ impl Shadows {
         if options.maps != self.options.maps {
             return Err(Error::MapsAllocated { found: options.maps, allocated: self.options.maps });
         }
-        if options.filter != self.options.filter {
+        if (options.filter, options.cascades) != (self.options.filter, self.options.cascades) {
             for state in &mut self.states {
                 state.measured = None;
             }
@@ -107,7 +109,7 @@ impl Shadows {
     /// from, out of it: the reference plane of a spot is where its cone enters these bounds.
     ///
     /// # Errors
-    /// A camera, scene or light out of range, and more lights than `options.maps`.
+    /// A camera, scene or light out of range, and lights with more maps than `options.maps`.
     pub fn plan(&self, camera: &Camera, scene: &Aabb, lights: &[Light]) -> Result<Plan, Error> {
         plan(&self.settings, &self.options, &self.states, camera, scene, lights)
     }
@@ -120,10 +122,10 @@ impl Shadows {
         }
         self.uploaded = Uploaded {
             lights: plan.views.iter().map(|view| view.light + 1).max().unwrap_or(0),
-            scale: [None; LIGHTS_MAX as usize],
+            scale: [None; MAPS_MAX as usize],
         };
         for view in &plan.views {
-            self.uploaded.scale[view.light as usize] = Some(measure_scale(&view.fit));
+            self.uploaded.scale[view.layer as usize] = Some(measure_scale(&view.fit));
         }
         self.counters.texels = plan.texels();
         self.counters.taps_per_pixel = match self.options.filter {
@@ -176,13 +178,13 @@ impl Shadows {
         self.bindings.layout()
     }
 
-    /// The map texture, Depth32Float, a layer a light: for pictures of it.
+    /// The map texture, Depth32Float, a layer a map: for pictures of it.
     #[must_use]
     pub fn map_texture(&self) -> &wgpu::Texture {
         self.maps.texture()
     }
 
-    /// Records the demand pass: the smallest filter radius that the pixels of a depth prepass need, by light, with the
+    /// Records the demand pass: the smallest filter radius that the pixels of a depth prepass need, by map, with the
     /// maps and matrices uploaded last. The result comes back frames later; see [`Shadows::read_demand`]. One call a
     /// submission.
     ///
@@ -247,11 +249,11 @@ impl Shadows {
         true
     }
 
-    /// The newest measurement of a light in use, in metres at the reference plane of `view`: `None` before the first,
+    /// The newest measurement for a map in use, in metres at the reference plane of `view`: `None` before the first,
     /// `Some(None)` where no fragment had a penumbra.
     #[must_use]
     pub fn measured_radius_world(&self, view: &View) -> Option<Option<f64>> {
-        let measured = self.states.get(view.light as usize)?.measured?;
+        let measured = self.states.get(view.layer as usize)?.measured?;
         Some(measured.map(|radius| radius * measure_scale(&view.fit)))
     }
 
@@ -262,7 +264,7 @@ impl Shadows {
     pub fn reset(&mut self) -> Result<(), Error> {
         let policy = TexelPolicy::new(&self.settings)?;
         for state in &mut self.states {
-            *state = LightState { policy: policy.clone(), measured: None };
+            *state = MapState { policy: policy.clone(), measured: None };
         }
         Ok(())
     }

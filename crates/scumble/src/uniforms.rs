@@ -3,19 +3,23 @@
 //! Field order, offsets and constants are those of the shaders; `tests/shaders.rs` compares them with naga's layouts.
 
 use bytemuck::{Pod, Zeroable};
-use scumble_core::Taps;
+use scumble_core::{Splits, Taps};
 
 /// Lights that one set of uniforms holds; `SHADOW_LIGHTS_MAX` of the shaders.
 pub const LIGHTS_MAX: u32 = 4;
+/// Maps of one light; `SHADOW_CASCADES_MAX` of the shaders.
+pub const CASCADES_MAX: u32 = Splits::COUNT_MAX;
+/// Maps that one set of uniforms holds; `SHADOW_MAPS_MAX` of the shaders.
+pub const MAPS_MAX: u32 = LIGHTS_MAX * CASCADES_MAX;
 /// Taps of the filter kernel; `SHADOW_PCF_TAPS` of the shaders.
 pub const PCF_TAPS: u32 = Taps::FILTER as u32;
 /// Taps of the blocker search; `SHADOW_BLOCKER_TAPS` of the shaders.
 pub const BLOCKER_TAPS: u32 = Taps::BLOCKER as u32;
 
-/// One light as the shaders see it. Spaces and units: head of `shader/bindings.wgsl`.
+/// One map as the shaders see it. Spaces and units: head of `shader/bindings.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct LightUniform {
+pub struct MapUniform {
     /// Clip space of the map from world relative to the origin, by columns.
     pub clip_from_world: [[f32; 4]; 4],
     /// Light space from world relative to the origin, by columns; z is the depth along the light.
@@ -48,7 +52,7 @@ pub struct LightUniform {
     pub bias_rounding_world: f32,
     /// Largest receiver slope that is followed, a tangent.
     pub slope_max: f32,
-    /// 0 where the light has no map and everything is lit.
+    /// 0 where nothing on screen needs the map and everything is lit.
     pub has_map: u32,
     /// `SHADOW_FILTER_…` of the shaders.
     pub filter_kind: u32,
@@ -56,12 +60,30 @@ pub struct LightUniform {
     pub padding: [u32; 2],
 }
 
-/// All lights.
+/// The maps of one light: consecutive, from the nearest slice on.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct LightUniform {
+    /// View depths at which the first slices end; the largest float from the last slice on.
+    pub slice_ends: [f32; CASCADES_MAX as usize - 1],
+    /// 0 where the plan has no such light.
+    pub map_count: u32,
+    /// Index of the nearest slice's map.
+    pub first_map: u32,
+    /// Unused.
+    pub padding: [u32; 3],
+}
+
+/// All lights and maps.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct LightsUniform {
+    /// By layer.
+    pub maps: [MapUniform; MAPS_MAX as usize],
     /// By light, in the order given to `plan`.
     pub lights: [LightUniform; LIGHTS_MAX as usize],
+    /// View depth of the plan's camera: dot with (position relative to the origin, 1).
+    pub view_depth: [f32; 4],
     /// Side of the blocks in pixels; 0 where they are not of this frame.
     pub block_px: u32,
     /// Unused.

@@ -10,6 +10,10 @@ use crate::uniforms::LightsUniform;
 pub struct View {
     /// Number of the light in the call of `plan`, and of `shadow_visibility`.
     pub light: u32,
+    /// Number of the slice of the light's view, 0 the nearest.
+    pub slice: u32,
+    /// View depth at which the slice ends, in metres; infinite for the last.
+    pub depth_end: f64,
     /// Layer of the map texture.
     pub layer: u32,
     /// Size of the viewport, whose corner is texel (0, 0).
@@ -48,17 +52,16 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The maps to draw, in the order of the lights. A light that reaches nothing on screen has none; it leaves
-    /// everything lit.
+    /// The maps to draw, in the order of the lights and their slices. A light that reaches nothing on screen has none, and
+    /// so has a slice of the view that holds nothing; they leave everything lit.
     #[must_use]
     pub fn views(&self) -> &[View] {
         &self.views
     }
 
-    /// The map of a light, if it has one.
-    #[must_use]
-    pub fn view_of(&self, light: u32) -> Option<&View> {
-        self.views.iter().find(|view| view.light == light)
+    /// The maps of a light, from the nearest slice on.
+    pub fn views_of(&self, light: u32) -> impl Iterator<Item = &View> {
+        self.views.iter().filter(move |view| view.light == light)
     }
 
     /// Texels of all maps together.

@@ -1,7 +1,10 @@
 //! Every shader is valid in every permutation; structs and constants are the same on both sides.
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use scumble::{BLOCKER_TAPS, FILTER_OVERRIDE, LIGHTS_MAX, PCF_TAPS, filter_constant, measure_wgsl, shadow_wgsl};
+use scumble::{
+    BLOCKER_TAPS, CASCADES_MAX, FILTER_OVERRIDE, LIGHTS_MAX, MAPS_MAX, PCF_TAPS, filter_constant, measure_wgsl,
+    shadow_wgsl,
+};
 use scumble_core::Filter;
 
 fn parse(source: &str) -> naga::Module {
@@ -108,12 +111,12 @@ macro_rules! assert_same_layout {
 
 #[test]
 fn structs_have_the_same_offsets_in_rust_and_wgsl() {
-    use scumble::uniforms::{LightUniform, LightsUniform, MeasureUniform, TapsUniform};
+    use scumble::uniforms::{LightUniform, LightsUniform, MapUniform, MeasureUniform, TapsUniform};
     let module = parse(&measure_wgsl());
     assert_same_layout!(
         module,
-        "ShadowLight",
-        LightUniform,
+        "ShadowMap",
+        MapUniform,
         [
             clip_from_world,
             light_from_world,
@@ -136,7 +139,8 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
             padding,
         ]
     );
-    assert_same_layout!(module, "ShadowLights", LightsUniform, [lights, block_px]);
+    assert_same_layout!(module, "ShadowLight", LightUniform, [slice_ends, map_count, first_map]);
+    assert_same_layout!(module, "ShadowLights", LightsUniform, [maps, lights, view_depth, block_px]);
     assert_same_layout!(module, "ShadowTaps", TapsUniform, [pcf, blocker]);
     assert_same_layout!(
         module,
@@ -176,6 +180,8 @@ fn constant(module: &naga::Module, name: &str) -> f64 {
 fn constants_are_the_same_in_rust_and_wgsl() {
     let module = parse(&measure_wgsl());
     assert_eq!(constant(&module, "SHADOW_LIGHTS_MAX"), f64::from(LIGHTS_MAX));
+    assert_eq!(constant(&module, "SHADOW_CASCADES_MAX"), f64::from(CASCADES_MAX));
+    assert_eq!(constant(&module, "SHADOW_MAPS_MAX"), f64::from(MAPS_MAX));
     assert_eq!(constant(&module, "SHADOW_PCF_TAPS"), f64::from(PCF_TAPS));
     assert_eq!(constant(&module, "SHADOW_BLOCKER_TAPS"), f64::from(BLOCKER_TAPS));
     assert_eq!(constant(&module, "MEASURE_NOTHING"), f64::from(f32::INFINITY.to_bits()));

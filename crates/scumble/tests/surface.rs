@@ -5,7 +5,7 @@ mod common;
 use common::gpu;
 use common::rig::{Rig, fixed, ground_and, slab, sun_above};
 use glam::DVec3;
-use scumble::{Error, Filter, LIGHTS_MAX, Options, Settings, Shadows, SizeChoice};
+use scumble::{Error, Filter, MAPS_MAX, Options, Settings, Shadows, SizeChoice};
 
 fn settings(cap: u32) -> Settings {
     Settings { cap, ..Settings::default() }
@@ -25,8 +25,8 @@ fn settings_out_of_range_are_refused_in_words() {
     assert!(refusal(settings(128), fixed_size).contains("[0, 64]"));
     let too_wide = Options { size: SizeChoice::Fixed([129, 64]), ..Options::default() };
     assert!(refusal(settings(128), too_wide).contains("the cap, 128"));
-    let maps = Options { maps: LIGHTS_MAX + 1, ..Options::default() };
-    assert!(refusal(settings(128), maps).contains("5 lights"));
+    let maps = Options { maps: MAPS_MAX + 1, ..Options::default() };
+    assert!(refusal(settings(128), maps).contains("17 maps"));
     let stride = Options { measure_stride: 0, ..Options::default() };
     assert!(refusal(settings(128), stride).contains("stride"));
     let origin = Options { origin_world: DVec3::NAN, ..Options::default() };
@@ -40,7 +40,7 @@ fn more_lights_than_maps_and_another_number_of_maps_are_refused() {
     let mut rig = Rig::new(settings(64), fixed(Filter::Hard, 64), &ground_and(slab(1.0, 0.0)));
     let lights = [sun_above(0.1); 2];
     let refused = rig.shadows.plan(&rig.camera, &rig.bounds, &lights).unwrap_err();
-    assert!(matches!(refused, Error::TooManyLights { found: 2, allocated: 1 }));
+    assert!(matches!(refused, Error::TooManyMaps { needed: 2, allocated: 1 }));
     let changed = rig.shadows.set_options(Options { maps: 2, ..Options::default() }).unwrap_err();
     assert!(changed.to_string().contains("fixed at creation"));
 }
