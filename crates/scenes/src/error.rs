@@ -13,6 +13,20 @@ pub enum Error {
         /// The names of the catalogue, separated by commas.
         known: String,
     },
+    /// The scene's model is not shipped and not there.
+    #[error(
+        "the scene {name} needs {}, which is not there: {origin}; put it there, or name its folder in {}",
+        file.display(),
+        crate::MODELS_VARIABLE
+    )]
+    Absent {
+        /// The scene.
+        name: &'static str,
+        /// What is needed.
+        file: PathBuf,
+        /// Where it comes from.
+        origin: &'static str,
+    },
     /// The file cannot be read.
     #[error("{}: cannot be read: {reason}", file.display())]
     Read {

@@ -4,6 +4,7 @@
 //! texture's mean where the texture can be read; alpha is ignored, so that masked leaves cast whole quads. Not read:
 //! skins, morph targets, cameras, lights, compressed meshes. Only triangle lists, strips and fans count.
 
+use crate::oddities::Oddities;
 use crate::polygon::has_area;
 use crate::shading::{Loose, index};
 use crate::{Error, Mesh};
@@ -30,16 +31,16 @@ pub fn load_gltf(file: &Path) -> Result<Vec<Mesh>, Error> {
     let source = Source { file, buffers: &buffers, image_means: &image_means };
 
     // Walk the default scene, or the first, or all root nodes of a file without scenes.
-    let mut meshes = Vec::new();
+    let (mut meshes, mut oddities) = (Vec::new(), Oddities::default());
     match document.default_scene().or_else(|| document.scenes().next()) {
         Some(scene) => {
             for node in scene.nodes() {
-                source.add_node(&node, DMat4::IDENTITY, &mut meshes)?;
+                source.add_node(&node, DMat4::IDENTITY, &mut meshes, &mut oddities)?;
             }
         }
         None => {
             for node in document.nodes() {
-                source.add_node(&node, DMat4::IDENTITY, &mut meshes)?;
+                source.add_node(&node, DMat4::IDENTITY, &mut meshes, &mut oddities)?;
             }
         }
     }
@@ -51,6 +52,7 @@ pub fn load_gltf(file: &Path) -> Result<Vec<Mesh>, Error> {
             "allowed is glTF 2.0 with at least one triangle that has an area",
         ));
     }
+    oddities.warn(file);
     Ok(meshes)
 }
 
@@ -59,7 +61,13 @@ impl Source<'_> {
         Error::Content { file: self.file.to_owned(), place: place.into(), problem: problem.into(), allowed }
     }
 
-    fn add_node(&self, node: &gltf::Node<'_>, world_from_parent: DMat4, meshes: &mut Vec<Mesh>) -> Result<(), Error> {
+    fn add_node(
+        &self,
+        node: &gltf::Node<'_>,
+        world_from_parent: DMat4,
+        meshes: &mut Vec<Mesh>,
+        oddities: &mut Oddities,
+    ) -> Result<(), Error> {
         let parent_from_node = Mat4::from_cols_array_2d(&node.transform().matrix()).as_dmat4();
         let world_from_node = world_from_parent * parent_from_node;
         if !world_from_node.is_finite() {
@@ -73,7 +81,8 @@ impl Source<'_> {
         if let Some(mesh) = node.mesh() {
             for primitive in mesh.primitives() {
                 let place = format!("mesh {} primitive {}", mesh.index(), primitive.index());
-                let loose = self.loose_triangles(&primitive, &place)?;
+                let (loose, flat) = self.loose_triangles(&primitive, &place)?;
+                oddities.add(mesh.name().unwrap_or(&place), flat, &loose);
                 if loose.corners.is_empty() {
                     continue;
                 }
@@ -89,20 +98,20 @@ impl Source<'_> {
             }
         }
         for child in node.children() {
-            self.add_node(&child, world_from_node, meshes)?;
+            self.add_node(&child, world_from_node, meshes, oddities)?;
         }
         Ok(())
     }
 
-    /// The triangles of a primitive in the node's space; points and lines give none.
-    fn loose_triangles(&self, primitive: &gltf::Primitive<'_>, place: &str) -> Result<Loose, Error> {
+    /// The triangles of a primitive in the node's space, and how many had no area; points and lines give none.
+    fn loose_triangles(&self, primitive: &gltf::Primitive<'_>, place: &str) -> Result<(Loose, usize), Error> {
         if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
-            return Ok(Loose::default());
+            return Ok(Default::default());
         }
 
         // Check every accessor before it is read: the reader trusts the types and lengths in the file.
         let Some(position_accessor) = primitive.get(&gltf::Semantic::Positions) else {
-            return Ok(Loose::default());
+            return Ok(Default::default());
         };
         let normal_accessor = primitive.get(&gltf::Semantic::Normals);
         for accessor in [Some(position_accessor), normal_accessor].iter().flatten() {
@@ -143,16 +152,18 @@ impl Source<'_> {
             ));
         }
 
-        let mut loose = Loose::default();
+        let (mut loose, mut flat) = (Loose::default(), 0);
         for triangle in triangles_of(primitive.mode(), &indices) {
             let triangle = triangle.map(|i| i as usize);
             let corners = triangle.map(|i| positions[i]);
             if has_area(corners) {
                 loose.corners.push(corners);
                 loose.normals.push(triangle.map(|i| normals.get(i).copied().unwrap_or(Vec3::ZERO)));
+            } else {
+                flat += 1;
             }
         }
-        Ok(loose)
+        Ok((loose, flat))
     }
 
     /// Refuses an accessor of a type that the reader does not take.

@@ -5,6 +5,7 @@ use crate::obj::load_obj;
 use crate::{Error, Mesh, bounds_of};
 use glam::{DAffine3, DVec3};
 use std::path::Path;
+use tracing::subscriber::NoSubscriber;
 
 /// The shipped models are in centimetres.
 const METRES_PER_CENTIMETRE: f64 = 0.01;
@@ -38,7 +39,8 @@ impl Placement {
 /// Loads `assets/NAME/NAME.obj` in metres, standing with the middle of its footprint on the origin.
 pub fn load_asset(assets: &Path, name: &str) -> Result<Vec<Mesh>, Error> {
     let file = assets.join(name).join(format!("{name}.obj"));
-    let meshes = load_obj(&file)?;
+    // What is shipped is known; a user can do nothing about its doubled faces.
+    let meshes = tracing::subscriber::with_default(NoSubscriber::default(), || load_obj(&file))?;
     let Some(bounds) = bounds_of(&meshes) else {
         return Ok(meshes);
     };

@@ -3,6 +3,7 @@
 //! `Kd` has no colour space in the format; the authoring tools show it as an sRGB code value, so it is converted
 //! to linear here. Not read: textures, smoothing groups (a crease angle decides), curves, lines and points.
 
+use crate::oddities::Oddities;
 use crate::polygon::{has_area, triangulate};
 use crate::shading::{Loose, index};
 use crate::{Error, Mesh, obj_lines};
@@ -39,8 +40,12 @@ pub fn load_obj(file: &Path) -> Result<Vec<Mesh>, Error> {
         )?;
     let materials = materials.unwrap_or_default();
 
-    let meshes: Vec<Mesh> =
-        models.iter().map(|model| mesh_of(model, &materials)).filter(|mesh| !mesh.triangles.is_empty()).collect();
+    let mut oddities = Oddities::default();
+    let meshes: Vec<Mesh> = models
+        .iter()
+        .map(|model| mesh_of(model, &materials, &mut oddities))
+        .filter(|mesh| !mesh.triangles.is_empty())
+        .collect();
     if meshes.is_empty() {
         return Err(Error::Content {
             file: file.to_owned(),
@@ -49,6 +54,7 @@ pub fn load_obj(file: &Path) -> Result<Vec<Mesh>, Error> {
             allowed: "allowed is Wavefront OBJ with at least one face that has an area",
         });
     }
+    oddities.warn(file);
     Ok(meshes)
 }
 
@@ -73,9 +79,11 @@ fn load_library(obj: &Path, library: &Path) -> tobj::MTLLoadResult {
     loaded
 }
 
-fn mesh_of(model: &tobj::Model, materials: &[tobj::Material]) -> Mesh {
+fn mesh_of(model: &tobj::Model, materials: &[tobj::Material], oddities: &mut Oddities) -> Mesh {
     let material = model.mesh.material_id.and_then(|id| materials.get(id));
-    let (positions, normals, triangles) = index(&loose_triangles(&model.mesh));
+    let (loose, flat) = loose_triangles(&model.mesh);
+    oddities.add(&model.name, flat, &loose);
+    let (positions, normals, triangles) = index(&loose);
     Mesh {
         name: match material {
             Some(material) => format!("{}/{}", model.name, material.name),
@@ -90,9 +98,10 @@ fn mesh_of(model: &tobj::Model, materials: &[tobj::Material]) -> Mesh {
     }
 }
 
-fn loose_triangles(mesh: &tobj::Mesh) -> Loose {
+/// The triangles of a mesh, and how many of its polygons' n - 2 had no area.
+fn loose_triangles(mesh: &tobj::Mesh) -> (Loose, usize) {
     let vector = |values: &[f32], i: usize| Vec3::from_slice(&values[3 * i..]);
-    let mut loose = Loose::default();
+    let (mut loose, mut flat) = (Loose::default(), 0);
     let mut first = 0;
     for arity in arities(mesh) {
         let face = first..first + arity;
@@ -106,13 +115,15 @@ fn loose_triangles(mesh: &tobj::Mesh) -> Loose {
             }
             _ => vec![Vec3::ZERO; arity],
         };
-        for triangle in triangulate(&corners) {
+        let cut = triangulate(&corners);
+        flat += arity.saturating_sub(2).saturating_sub(cut.len());
+        for triangle in cut {
             loose.corners.push(triangle.map(|i| corners[i]));
             loose.normals.push(triangle.map(|i| normals[i]));
         }
     }
     debug_assert!(loose.corners.iter().all(|&t| has_area(t)));
-    loose
+    (loose, flat)
 }
 
 /// Corners per face; an empty list means triangles throughout.

@@ -4,15 +4,20 @@
 
 use glam::DVec3;
 use scumble_core::Light;
-use scumble_scenes::{Scene, catalogue, open};
+use scumble_scenes::{Entry, MODELS_VARIABLE, Scene, catalogue, open};
 use std::path::PathBuf;
 
 fn assets() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../assets")
 }
 
+/// The scenes whose models are in the repository.
+fn shipped() -> impl Iterator<Item = &'static Entry> {
+    catalogue().iter().filter(|entry| entry.model.is_none())
+}
+
 fn scenes() -> impl Iterator<Item = Scene> {
-    catalogue().iter().map(|entry| open(entry.name, &assets()).unwrap())
+    shipped().map(|entry| open(entry.name, &assets()).unwrap())
 }
 
 #[test]
@@ -20,7 +25,24 @@ fn names_are_unique_and_described_in_one_line() {
     for (i, entry) in catalogue().iter().enumerate() {
         assert!(!entry.description.is_empty() && !entry.description.contains('\n'));
         assert!(catalogue()[i + 1..].iter().all(|other| other.name != entry.name));
+    }
+    for entry in shipped() {
         assert_eq!(open(entry.name, &assets()).unwrap().name, entry.name);
+    }
+}
+
+#[test]
+fn a_scene_whose_model_is_not_there_says_which_file_it_needs_and_where_that_comes_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let assets = folder.path().join("assets");
+    for entry in catalogue().iter().filter(|entry| entry.model.is_some()) {
+        if std::env::var_os(MODELS_VARIABLE).is_none() {
+            let file = entry.missing(&assets).unwrap();
+            let refused = open(entry.name, &assets).unwrap_err().to_string();
+            for part in [entry.name, &file.display().to_string(), "CC", MODELS_VARIABLE] {
+                assert!(refused.contains(part) && !refused.contains('\n'), "{refused}");
+            }
+        }
     }
 }
 

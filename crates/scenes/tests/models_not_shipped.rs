@@ -34,3 +34,14 @@ fn a_town_in_one_binary_file_stands_on_its_own_streets() {
     // 58,772 in the file; 1,146 have no area.
     assert_eq!(town.triangle_count(), 57_626);
 }
+
+#[test]
+#[ignore = "needs models that are not part of the repository, in the folder SCUMBLE_MODELS"]
+fn street_and_harbour_are_scenes_whose_light_reaches_what_the_camera_sees() {
+    for (name, least) in [("street", 50_000), ("harbour", 60_000)] {
+        let scene = open(name, &PathBuf::new()).expect("the folder holds the model");
+        assert!(scene.triangle_count() > least);
+        let fit = scumble_core::fit(&scene.camera, &scene.bounds(), &scene.light, true).expect("both are in range");
+        assert!(fit.is_some(), "{name}");
+    }
+}

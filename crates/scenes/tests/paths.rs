@@ -12,7 +12,7 @@ const FRAMES: u32 = 128;
 
 fn scenes() -> impl Iterator<Item = Scene> {
     let assets = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../assets");
-    catalogue().iter().map(move |entry| open(entry.name, &assets).unwrap())
+    catalogue().iter().filter(|entry| entry.model.is_none()).map(move |entry| open(entry.name, &assets).unwrap())
 }
 
 fn frames() -> impl Iterator<Item = f64> {

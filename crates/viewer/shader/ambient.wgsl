@@ -42,7 +42,7 @@ fn ambient(@builtin(position) frag_coord: vec4f) -> @location(0) f32 {
         let other = textureLoad(gbuffer_position, at, 0);
         let way = other.xyz - center.xyz;
         let squared = dot(way, way);
-        if other.w == 0.0 || squared < 1e-12 {
+        if other.w == 0.0 || squared < 1e-12 * radius_world * radius_world {
             continue;
         }
         let cosine = dot(way, normal) * inverseSqrt(squared);

@@ -46,7 +46,8 @@ use crate::device::Gpu;
 use crate::output::{Kind, claim, make_directory, write, write_json};
 use crate::progress::{progress, say};
 use crate::record::{MachineRecord, RatioRecord};
-use crate::setup::Setup;
+use crate::scenes::available;
+use crate::setup::{Setup, assets};
 use crate::stage::Stage;
 use crate::truth::Store;
 
@@ -147,7 +148,7 @@ fn conditions(options: &Bench) -> Conditions {
 /// Every scene is opened before the first is measured, so that a slip in the last name costs no time.
 fn open_scenes(options: &Bench, conditions: &Conditions) -> Result<Vec<Setup>> {
     let scenes = match &options.scenes[..] {
-        [] => scumble_scenes::catalogue().iter().map(|entry| entry.name.to_owned()).collect(),
+        [] => available(&assets(conditions.assets.as_deref())),
         named => named.to_vec(),
     };
     let setups = scenes.iter().map(|scene| Setup::open(scene, conditions)).collect::<Result<Vec<_>>>()?;

@@ -22,6 +22,7 @@ mod pipelines;
 mod progress;
 mod readback;
 mod record;
+mod scenes;
 mod setup;
 mod shading;
 mod shot;
@@ -47,6 +48,9 @@ fn main() -> ExitCode {
         }
         Err(error) => return refuse(&one_line(&error.to_string())),
     };
+    // What libraries notice, such as a material that cannot be read, in the form of this program's own warnings.
+    let notices = tracing_subscriber::fmt().with_max_level(tracing_subscriber::filter::LevelFilter::WARN);
+    notices.with_writer(std::io::stderr).without_time().with_target(false).with_ansi(false).init();
     match run(cli) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => refuse(&format!("error: {}", format!("{error:#}").replace('\n', " "))),
@@ -61,9 +65,7 @@ fn run(cli: Cli) -> Result<()> {
         Some(Command::Report { folder }) => bench::remake_report(&folder),
         Some(Command::Truth(options)) => truth::run(&options),
         Some(Command::Scenes) => {
-            for entry in scumble_scenes::catalogue() {
-                println!("{:<12} {}", entry.name, entry.description);
-            }
+            scenes::list();
             Ok(())
         }
     }

@@ -113,7 +113,7 @@ fn read_relation(path: &Path) -> Result<Relation> {
 }
 
 /// The folder of models: as asked, else beside the program, else the one of the workspace that built it.
-fn assets(asked: Option<&Path>) -> PathBuf {
+pub fn assets(asked: Option<&Path>) -> PathBuf {
     if let Some(path) = asked {
         return path.to_owned();
     }

@@ -85,6 +85,23 @@ fn a_missing_or_truncated_scene_file_is_named() {
 }
 
 #[test]
+fn triangles_without_an_area_or_there_twice_and_missing_materials_are_named_and_the_rest_is_drawn() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("odd.obj");
+    let faces = "f 1 2 3\nf 2 3 1\nf 1 2 2\nf 1 2 4\n";
+    fs::write(&file, format!("mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n{faces}")).unwrap();
+    let picture = directory.path().join("odd.png");
+    let sizes = ["--width", "64", "--height", "36", "--samples", "1", "--size", "64", "--method", "none"];
+    let output = viewer(&[&["shot", "--scene", path_text(&file), "--out", path_text(&picture)], &sizes[..]].concat());
+    let notices = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success() && picture.is_file(), "{notices}");
+    let of_file: Vec<&str> = notices.lines().filter(|line| line.contains("odd.obj")).collect();
+    assert_eq!(of_file.len(), 1, "{notices}");
+    assert!(of_file[0].contains("1 triangles have no area") && of_file[0].contains("1 are there twice"), "{notices}");
+    assert!(notices.contains("gone.mtl"), "{notices}");
+}
+
+#[test]
 fn a_relation_that_is_none_is_refused_by_file_and_place() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("x.png");
@@ -142,6 +159,21 @@ fn a_shot_writes_a_picture_and_a_record_whose_texels_are_those_of_its_viewports(
             assert_eq!(record["texels"], 128 * 64);
         }
     }
+}
+
+#[test]
+fn a_scene_in_other_units_is_the_same_picture() {
+    let directory = tempfile::tempdir().unwrap();
+    let picture = |scene: &str| {
+        let path = directory.path().join(format!("{scene}.png"));
+        let options = ["--method", "pcss", "--size", "512", "--width", "320", "--height", "180", "--samples", "1"];
+        let output = viewer(&[&["shot", "--scene", scene, "--out", path_text(&path)], &options[..]].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read(&path).unwrap()
+    };
+    let contact = picture("contact");
+    assert!(picture("giant") == contact, "lengths times 2^20");
+    assert!(picture("speck") == contact, "lengths times 2^-20");
 }
 
 #[test]

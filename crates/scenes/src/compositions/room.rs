@@ -17,8 +17,8 @@ const LAMP: DVec3 = DVec3::new(0.1, 2.12, 0.2);
 pub fn room(assets: &Path) -> Result<Scene, Error> {
     let plaster = Vec3::new(0.64, 0.58, 0.50);
     let mut meshes = vec![
-        cuboid("floor", DVec3::new(-2.6, -0.1, -1.7), DVec3::new(2.8, 0.0, 2.4), Vec3::new(0.38, 0.27, 0.19)),
-        cuboid("back wall", DVec3::new(-2.6, 0.0, -1.8), DVec3::new(2.8, 2.9, -1.7), plaster),
+        cuboid("floor", DVec3::new(-2.6, -0.1, -1.7), DVec3::new(3.2, 0.0, 2.4), Vec3::new(0.38, 0.27, 0.19)),
+        cuboid("back wall", DVec3::new(-2.6, 0.0, -1.8), DVec3::new(3.2, 2.9, -1.7), plaster),
         cuboid("side wall", DVec3::new(-2.7, -0.1, -1.8), DVec3::new(-2.6, 2.9, 2.4), plaster),
         shade("lamp shade", LAMP + DVec3::Y * 0.02, [0.24, 0.10], 0.24, Vec3::new(0.62, 0.50, 0.30)),
         cuboid(

@@ -54,8 +54,8 @@ pub fn slats(_assets: &Path) -> Result<Scene, Error> {
         name: "slats".to_owned(),
         meshes,
         camera: Camera {
-            eye: DVec3::new(2.9, 2.3, 4.0),
-            target: DVec3::new(-0.15, 0.65, -0.5),
+            eye: DVec3::new(1.9, 1.75, 2.35),
+            target: DVec3::new(-0.25, 0.42, -0.75),
             up: DVec3::Y,
             vertical_fov: 0.66,
             aspect: ASPECT,

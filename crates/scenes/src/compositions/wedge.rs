@@ -32,8 +32,8 @@ pub fn wedge(_assets: &Path) -> Result<Scene, Error> {
         name: "wedge".to_owned(),
         meshes: vec![ground("ground", DVec3::ZERO, SIDE, Vec3::splat(0.55)), turned],
         camera: Camera {
-            eye: DVec3::new(2.7, 2.4, 2.9),
-            target: DVec3::new(0.1, 0.25, -0.2),
+            eye: DVec3::new(1.15, 0.85, 1.5),
+            target: DVec3::new(0.02, 0.0, -0.15),
             up: DVec3::Y,
             vertical_fov: 0.60,
             aspect: ASPECT,
