@@ -16,7 +16,15 @@ pub fn image_means(document: &gltf::Document, file: &Path, buffers: &[gltf::buff
     document
         .images()
         .map(|image| {
-            if !is_base_color(document, image.index()) || !lies_in_buffer(&image, buffers) {
+            if !is_base_color(document, image.index()) {
+                return Vec3::ONE;
+            }
+            if !has_source(document, image.index()) || !lies_in_buffer(&image, buffers) {
+                tracing::warn!(
+                    "{}: image {} has no data of its own; its material is white",
+                    file.display(),
+                    image.index()
+                );
                 return Vec3::ONE;
             }
             match Data::from_source(image.source(), file.parent(), buffers) {
@@ -48,6 +56,12 @@ fn is_base_color(document: &gltf::Document, image: usize) -> bool {
             .base_color_texture()
             .is_some_and(|info| info.texture().source().index() == image)
     })
+}
+
+/// The library takes it for granted that an image names a file, or a part of a buffer and its type.
+fn has_source(document: &gltf::Document, image: usize) -> bool {
+    let of_file = document.as_json().images.get(image);
+    of_file.is_some_and(|image| image.uri.is_some() || (image.buffer_view.is_some() && image.mime_type.is_some()))
 }
 
 /// The decoder slices an embedded image without a check of its own.

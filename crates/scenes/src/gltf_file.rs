@@ -25,7 +25,7 @@ struct Source<'a> {
 pub fn load_gltf(file: &Path) -> Result<Vec<Mesh>, Error> {
     // Decode the document and its buffers.
     let bytes = std::fs::read(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
-    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).map_err(|problem| not_gltf(file, &problem))?;
+    let (document, blob) = document_of(file, &bytes)?;
     let buffers = gltf::import_buffers(&document, file.parent(), blob).map_err(|problem| bad_buffer(file, &problem))?;
     let image_means = crate::gltf_color::image_means(&document, file, &buffers);
     let source = Source { file, buffers: &buffers, image_means: &image_means };
@@ -54,6 +54,27 @@ pub fn load_gltf(file: &Path) -> Result<Vec<Mesh>, Error> {
     }
     oddities.warn(file);
     Ok(meshes)
+}
+
+/// The checked document and the binary chunk. The library's check looks up the positions of a primitive before it knows
+/// that they are there.
+fn document_of(file: &Path, bytes: &[u8]) -> Result<(gltf::Document, Option<Vec<u8>>), Error> {
+    let refuse = |problem: gltf::Error| not_gltf(file, &problem);
+    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice_without_validation(bytes).map_err(refuse)?;
+    let json = document.into_json();
+    let primitives =
+        json.meshes.iter().enumerate().flat_map(|(mesh, of)| of.primitives.iter().map(move |it| (mesh, it)));
+    for (mesh, primitive) in primitives {
+        if let Some(index) = primitive.attributes.values().find(|index| index.value() >= json.accessors.len()) {
+            return Err(Error::Content {
+                file: file.to_owned(),
+                place: format!("mesh {mesh}"),
+                problem: format!("accessor {} where there are {}", index.value(), json.accessors.len()),
+                allowed: "allowed are accessors that the file has",
+            });
+        }
+    }
+    Ok((gltf::Document::from_json(json).map_err(refuse)?, blob))
 }
 
 impl Source<'_> {
