@@ -78,6 +78,7 @@ fn truth(rays: &Rays, view: &View, kind: &Filter, points: &[Point]) -> Vec<(f64,
         let turn = rotation_angle(point.pixel);
         match *kind {
             Filter::Hard => (filter::hard(lookup, &plane), 0.0),
+            Filter::Vsm { .. } => unreachable!("compared with rays by the viewer's bench"),
             Filter::Pcf { radius_world } => {
                 (filter::pcf(lookup, &taps.filter, radius_world, turn, &plane), radius_world)
             }

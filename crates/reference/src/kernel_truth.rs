@@ -13,6 +13,8 @@
 //! Source: the comparison with an alias-free hard shadow of course notes Eisemann et al. (2009), 1.6, filtered by the
 //! kernel under test in place of the light.
 
+use std::f64::consts::SQRT_2;
+
 use glam::{DVec2, Vec3};
 use rayon::prelude::*;
 use scumble_core::filter::{self, SoftShadow};
@@ -43,7 +45,7 @@ pub struct KernelTruth<'a> {
     pub fit: &'a Fit,
     /// The filter under test.
     pub filter: Filter,
-    /// The renderer's taps.
+    /// The renderer's taps; of VSM points of its square.
     pub taps: Taps,
     /// No PCSS filter is narrower than this, in metres at the reference plane; 0 for the filter's own truth, the map's
     /// `radius_min_world` to leave the clamp out of the comparison.
@@ -51,9 +53,9 @@ pub struct KernelTruth<'a> {
 }
 
 impl<'a> KernelTruth<'a> {
-    /// With the default taps and no smallest radius.
+    /// With the filter's default taps and no smallest radius.
     pub fn new(rays: &'a Rays, fit: &'a Fit, filter: Filter) -> Self {
-        Self { rays, fit, filter, taps: Taps::default(), radius_min_world: 0.0 }
+        Self { rays, fit, filter, taps: Taps::of(&filter, Taps::count_of(&filter)), radius_min_world: 0.0 }
     }
 
     /// Visibility of one receiver, and the radius of its filter (0 for a hard shadow).
@@ -62,10 +64,15 @@ impl<'a> KernelTruth<'a> {
         let normal = receiver.normal.as_dvec3();
         let plane = ReceiverPlane::new(self.fit, position, normal, &Bias::without_texels(), DVec2::ZERO);
         let around = Surroundings::new(self.rays, self.fit, &plane, position);
-        let turn = rotation_angle(receiver.pixel);
+        // A square is aligned with the map and not turned, and its corners reach farther.
+        let (turn, reach) = match self.filter {
+            Filter::Vsm { .. } => (0.0, SQRT_2),
+            Filter::Hard | Filter::Pcf { .. } | Filter::Pcss => (rotation_angle(receiver.pixel), 1.0),
+        };
         let pcf = |radius_world: f64| {
-            let lookup =
-                |offset, depth| f64::from(u8::from(around.occluder_depth(offset, depth, radius_world).is_none()));
+            let lookup = |offset, depth| {
+                f64::from(u8::from(around.occluder_depth(offset, depth, reach * radius_world).is_none()))
+            };
             filter::pcf(lookup, &self.taps.filter, radius_world, turn, &plane)
         };
 
@@ -74,7 +81,9 @@ impl<'a> KernelTruth<'a> {
                 let lookup = |offset, depth| f64::from(u8::from(around.occluder_depth(offset, depth, 0.0).is_none()));
                 SoftShadow { visibility: filter::hard(lookup, &plane), blockers: None, radius_world: 0.0 }
             }
-            Filter::Pcf { radius_world } => SoftShadow { visibility: pcf(radius_world), blockers: None, radius_world },
+            Filter::Pcf { radius_world } | Filter::Vsm { radius_world } => {
+                SoftShadow { visibility: pcf(radius_world), blockers: None, radius_world }
+            }
             Filter::Pcss => {
                 let search = filter::search_radius_world(self.fit, plane.depth).max(self.radius_min_world);
                 let depth_at = |offset| around.occluder_depth(offset, plane.depth_at(offset), search);

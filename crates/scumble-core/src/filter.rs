@@ -19,8 +19,9 @@ use glam::DVec2;
 
 use crate::bias::ReceiverPlane;
 use crate::fit::Fit;
-use crate::kernel::poisson_disc;
+use crate::kernel::{poisson_disc, square_taps};
 use crate::light::Light;
+use crate::settings::Filter;
 
 /// Depth of the nearest occluder that a spot's search is made for, as a share of the receiver's depth: its penumbra is
 /// four times the lamp in radius.
@@ -42,6 +43,28 @@ impl Taps {
     pub const FILTER: usize = 25;
     /// Seeds of the two discs, the best of the first 64 by their residual error on a straight edge.
     pub const SEEDS: [u64; 2] = [19, 47];
+
+    /// Taps by default of a truth of variance shadow maps, whose kernel has no taps of its own: one in every 64th of the
+    /// square along x and along y, so that an edge along either errs by 1/128 at most.
+    pub const SQUARE: usize = 64;
+
+    /// What stands for a filter's kernel over rays, `filter` taps of it: its disc, or for variance shadow maps its square.
+    #[must_use]
+    pub fn of(kind: &Filter, filter: usize) -> Self {
+        match kind {
+            Filter::Vsm { .. } => Self { blocker: Vec::new(), filter: square_taps(filter) },
+            Filter::Hard | Filter::Pcf { .. } | Filter::Pcss => Self::new(Self::BLOCKER, filter),
+        }
+    }
+
+    /// Number of taps of a filter by default.
+    #[must_use]
+    pub fn count_of(kind: &Filter) -> usize {
+        match kind {
+            Filter::Vsm { .. } => Self::SQUARE,
+            Filter::Hard | Filter::Pcf { .. } | Filter::Pcss => Self::FILTER,
+        }
+    }
 
     /// Discs of these numbers of taps.
     #[must_use]

@@ -48,6 +48,17 @@ pub fn poisson_disc(taps: usize, seed: u64) -> Vec<DVec2> {
     points
 }
 
+/// `taps` points of the square of half side 1, one in each of as many strips along x and along y (Hammersley 1960): equal
+/// on every platform.
+#[must_use]
+pub fn square_taps(taps: usize) -> Vec<DVec2> {
+    let point = |i: usize| {
+        let along_y = f64::from((i as u32).reverse_bits()) / f64::from(u32::MAX);
+        DVec2::new((i as f64 + 0.5) / taps as f64, along_y + 0.5 / taps as f64) * 2.0 - 1.0
+    };
+    (0..taps).map(point).collect()
+}
+
 /// Angle by which the taps of a pixel are turned, in radians, 0..2 pi: the upper 24 bits of [`pixel_hash`], which f32
 /// holds exactly.
 #[must_use]
@@ -200,6 +211,19 @@ mod tests {
         let square = |seed| poisson_disc(25, seed).iter().map(|p| p.length_squared()).sum::<f64>() / 25.0;
         let mean = (0..64).map(square).sum::<f64>() / 64.0;
         assert!((mean - 0.5).abs() < 0.02, "{mean}");
+    }
+
+    #[test]
+    fn a_square_of_taps_halves_at_its_middle_and_an_edge_along_it_errs_by_half_a_tap() {
+        let taps = square_taps(64);
+        assert!(taps.iter().all(|tap| tap.abs().max_element() < 1.0));
+        for axis in [DVec2::X, DVec2::Y] {
+            for i in -100..=100 {
+                let t = f64::from(i) / 100.0;
+                let covered = taps.iter().filter(|tap| tap.dot(axis) > -t).count() as f64 / 64.0;
+                assert!((covered - (0.5 + 0.5 * t)).abs() <= 0.5 / 64.0 + 1e-6, "{axis} {t}");
+            }
+        }
     }
 
     #[test]

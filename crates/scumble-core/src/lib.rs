@@ -53,6 +53,7 @@ pub mod filter;
 mod fit;
 mod kernel;
 mod light;
+pub mod moments;
 mod policy;
 mod polyhedron;
 mod presets;
@@ -68,8 +69,9 @@ pub use cascade::{Cascade, cascades, slices_of};
 pub use error::Error;
 pub use filter::Taps;
 pub use fit::{Fit, fit};
-pub use kernel::{half_plane_under_disc, pixel_hash, poisson_disc, rotation_angle};
+pub use kernel::{half_plane_under_disc, pixel_hash, poisson_disc, rotation_angle, square_taps};
 pub use light::Light;
+pub use moments::VarianceBound;
 pub use policy::{Demand, Size, TexelPolicy, size_achieved};
 pub use relation::{RATIO_MAX, ROUNDING_SLACK, Relation, whole_texels};
 pub use relation_file::{

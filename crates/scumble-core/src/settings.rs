@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bias::Bias;
 use crate::error::{Error, check, not_negative, positive};
+use crate::moments::VarianceBound;
 use crate::relation::Relation;
 
 /// How visibility is filtered.
@@ -20,16 +21,31 @@ pub enum Filter {
     },
     /// Percentage closer soft shadows; the light's size gives the radius.
     Pcss,
+    /// A variance shadow map with one radius everywhere; see [`moments`](crate::moments).
+    Vsm {
+        /// Half the side of the square kernel, in metres at the fit's reference plane.
+        radius_world: f64,
+    },
 }
 
 impl Filter {
-    /// Name on command lines and in tables: `none`, `pcf`, `pcss`.
+    /// Name on command lines and in tables: `none`, `pcf`, `pcss`, `vsm`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Hard => "none",
             Self::Pcf { .. } => "pcf",
             Self::Pcss => "pcss",
+            Self::Vsm { .. } => "vsm",
+        }
+    }
+
+    /// The radius of a filter that has one radius everywhere, in metres at the fit's reference plane.
+    #[must_use]
+    pub fn fixed_radius_world(&self) -> Option<f64> {
+        match *self {
+            Self::Hard | Self::Pcss => None,
+            Self::Pcf { radius_world } | Self::Vsm { radius_world } => Some(radius_world),
         }
     }
 
@@ -38,7 +54,7 @@ impl Filter {
     /// # Errors
     /// Names the radius.
     pub fn checked(&self) -> Result<Self, Error> {
-        if let Self::Pcf { radius_world } = *self {
+        if let Some(radius_world) = self.fixed_radius_world() {
             positive("the filter's radius_world", radius_world)?;
         }
         Ok(*self)
@@ -69,6 +85,8 @@ pub struct Settings {
     pub shrink_rungs: u32,
     /// Depth bias.
     pub bias: Bias,
+    /// Guards of variance shadow maps.
+    pub variance: VarianceBound,
 }
 
 impl Default for Settings {
@@ -84,6 +102,7 @@ impl Default for Settings {
             shrink_after_frames: 30,
             shrink_rungs: 4,
             bias: Bias::default(),
+            variance: VarianceBound::default(),
         }
     }
 }
@@ -106,6 +125,7 @@ impl Settings {
         check("shrink_below", self.shrink_below, (0.0..1.0).contains(&self.shrink_below), "a share from 0 to below 1")?;
         check("shrink_rungs", f64::from(self.shrink_rungs), self.shrink_rungs > 0, "1 or more")?;
         self.bias.checked()?;
+        self.variance.checked()?;
         Ok(self.clone())
     }
 
@@ -163,6 +183,7 @@ mod tests {
             assert!(settings.checked().unwrap_err().to_string().starts_with(name), "{name}");
         }
         assert!(Filter::Pcf { radius_world: 0.0 }.checked().is_err());
+        assert!(Filter::Vsm { radius_world: f64::NAN }.checked().is_err());
     }
 
     #[test]

@@ -15,10 +15,11 @@ const SHADOW_BLOCKER_TAPS: u32 = 16u;
 const SHADOW_FILTER_HARD: u32 = 0u;
 const SHADOW_FILTER_PCF: u32 = 1u;
 const SHADOW_FILTER_PCSS: u32 = 2u;
-const SHADOW_FILTER_UPLOADED: u32 = 3u;
+const SHADOW_FILTER_VSM: u32 = 3u;
+const SHADOW_FILTER_UPLOADED: u32 = 4u;
 
 // The filter, as a pipeline constant for a compiler to fold, or as it was uploaded.
-override shadow_filter: u32 = 3u;
+override shadow_filter: u32 = 4u;
 
 struct ShadowMap {
     clip_from_world: mat4x4f,
@@ -50,6 +51,11 @@ struct ShadowMap {
     // 0 where nothing on screen needs the map and everything is lit.
     has_map: u32,
     filter_kind: u32,
+    // Smallest standard deviation of depth under VSM, texels at the receiver; share of the light that it counts as dark.
+    deviation_min_texels: f32,
+    bleeding_cut: f32,
+    // Texels of a block of `shadow_moments` along x and y.
+    moment_block: vec2f,
     padding: vec2u,
 }
 
@@ -89,3 +95,5 @@ struct ShadowTaps {
 @group(0) @binding(3) var shadow_sampler: sampler_comparison;
 // By block of pixels, a layer a light: what the demand pass found at its corners.
 @group(0) @binding(4) var shadow_blocks: texture_2d_array<u32>;
+// By block of texels of each map: mean and variance of linear depth under the kernel of VSM.
+@group(0) @binding(5) var shadow_moments: texture_2d_array<f32>;

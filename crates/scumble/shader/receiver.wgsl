@@ -19,6 +19,8 @@ struct ShadowReceiver {
     bias: f32,
     // Light-space depth, world length.
     light_depth: f32,
+    // Larger side of a texel at the receiver, world length.
+    texel_world: f32,
 }
 
 // Light-space depth of a map depth.
@@ -66,6 +68,7 @@ fn shadow_receiver(map: u32, position_world: vec3f, normal_world: vec3f) -> Shad
         receiver.slope = tangent * (far / ((far - near) * p.z));
         depth_per_length = near * far / ((far - near) * p.z * p.z);
     }
+    receiver.texel_world = texel;
     let bias_texels = shadow_lights.maps[map].bias_constant_texels
         + shadow_lights.maps[map].bias_slope_texels * (abs(tangent.x) + abs(tangent.y));
     receiver.bias = depth_per_length * (texel * bias_texels + shadow_lights.maps[map].bias_rounding_world);

@@ -24,6 +24,13 @@ fn shadow_filtered(map: u32, receiver: ShadowReceiver, frag_coord: vec2f) -> Sha
         return ShadowSample(visibility, 0.0, u32(visibility < 1.0));
     }
 
+    if kind == SHADOW_FILTER_VSM {
+        // Moments do not say how many texels block the light: some do, or none.
+        let visibility = shadow_vsm(map, receiver);
+        let radius = shadow_lights.maps[map].radius_world;
+        return ShadowSample(visibility, radius, select(0u, 2u, visibility < 1.0));
+    }
+
     let rotation = shadow_rotation(vec2u(frag_coord));
     if kind == SHADOW_FILTER_PCF {
         let radius = shadow_lights.maps[map].radius_world;
@@ -80,7 +87,8 @@ fn shadow_visibility(light: u32, position_world: vec3f, normal_world: vec3f, fra
     if shadow_is_open(map, receiver) {
         return 1.0;
     }
-    if shadow_filter_of(map) != SHADOW_FILTER_HARD {
+    let kind = shadow_filter_of(map);
+    if kind == SHADOW_FILTER_PCF || kind == SHADOW_FILTER_PCSS {
         let block = shadow_block(light, vec2u(frag_coord));
         if block == SHADOW_BLOCK_LIT || block == SHADOW_BLOCK_UMBRA {
             let visibility = shadow_tap_at(map, receiver, vec2f(0.0));

@@ -5,6 +5,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use crate::blocks::{blocks_texture, sampled_binding};
 use crate::maps::Maps;
+use crate::moments::{self, Moments, moments_texture};
 use crate::uniforms::{LightsUniform, TapsUniform};
 
 /// Uniform buffers, sampler, layout and group.
@@ -15,14 +16,15 @@ pub struct Bindings {
     sampler: wgpu::Sampler,
     layout: wgpu::BindGroupLayout,
     group: wgpu::BindGroup,
+    moments: wgpu::TextureView,
 }
 
 impl Bindings {
-    /// Buffers, textures and bind groups created here.
+    /// Buffers, textures and bind groups created here; one more without moments.
     pub const ALLOCATIONS: u64 = 4;
 
     /// Creates all, with the method's taps and no lights.
-    pub fn new(device: &wgpu::Device, maps: &Maps) -> Self {
+    pub fn new(device: &wgpu::Device, maps: &Maps, moments: Option<&Moments>) -> Self {
         // Uniforms: the lights start as zeros, which is "no map, all lit".
         let lights = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("scumble lights"),
@@ -46,13 +48,18 @@ impl Bindings {
         });
         let layout = layout(device);
         let no_blocks = blocks_texture(device, [1, 1]);
-        let group = group(device, &layout, &lights, &taps, maps, &sampler, &no_blocks);
-        Self { lights, taps, sampler, layout, group }
+        let moments = match moments {
+            Some(moments) => moments.filtered().clone(),
+            None => moments_texture(device, 1, 1).1,
+        };
+        let group = group(device, &layout, &lights, &taps, maps, &sampler, &no_blocks, &moments);
+        Self { lights, taps, sampler, layout, group, moments }
     }
 
     /// Reads these blocks from here on.
     pub fn set_blocks(&mut self, device: &wgpu::Device, maps: &Maps, blocks: &wgpu::TextureView) {
-        self.group = group(device, &self.layout, &self.lights, &self.taps, maps, &self.sampler, blocks);
+        let Self { lights, taps, sampler, layout, moments, .. } = self;
+        self.group = group(device, layout, lights, taps, maps, sampler, blocks, moments);
     }
 
     /// For pipelines that shade.
@@ -77,6 +84,7 @@ impl Bindings {
     }
 }
 
+#[expect(clippy::too_many_arguments, reason = "one for each binding")]
 fn group(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
@@ -85,6 +93,7 @@ fn group(
     maps: &Maps,
     sampler: &wgpu::Sampler,
     blocks: &wgpu::TextureView,
+    moments: &wgpu::TextureView,
 ) -> wgpu::BindGroup {
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("scumble"),
@@ -95,6 +104,7 @@ fn group(
             wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(maps.sampled()) },
             wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(sampler) },
             wgpu::BindGroupEntry { binding: 4, resource: wgpu::BindingResource::TextureView(blocks) },
+            wgpu::BindGroupEntry { binding: 5, resource: wgpu::BindingResource::TextureView(moments) },
         ],
     })
 }
@@ -125,6 +135,7 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
             entry(2, maps),
             entry(3, sampler),
             entry(4, sampled_binding()),
+            entry(5, moments::sampled_binding(wgpu::TextureViewDimension::D2Array)),
         ],
     })
 }

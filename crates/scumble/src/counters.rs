@@ -5,12 +5,18 @@
 pub struct Counters {
     /// Textures, buffers and bind groups created.
     pub allocations: u64,
-    /// Bytes of the map texture.
+    /// Bytes of the map texture, and of the textures of moments where there are any.
     pub map_bytes: u64,
     /// Texels of all maps of the uploaded plan.
     pub texels: u64,
     /// Map lookups that one pixel and light needs at most with the filter of the uploaded plan.
     pub taps_per_pixel: u32,
+    /// Texels and blocks that the moments of all maps of the uploaded plan are made from; 0 without VSM.
+    pub moment_taps: u64,
+    /// Blocks of the moments of all maps of the uploaded plan, 16 bytes each in two textures; 0 without VSM.
+    pub moment_blocks: u64,
+    /// Moments made, three dispatches each.
+    pub moment_passes: u64,
     /// Depth passes begun.
     pub map_passes: u64,
     /// Demand passes recorded.

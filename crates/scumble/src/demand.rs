@@ -1,6 +1,6 @@
 //! What is asked of a map: what the screen was measured to need, or what the bounds say.
 //!
-//! Without a measurement it is the radius itself (PCF), the settings' smallest radius (PCSS), 0 (one tap), so a PCSS map starts
+//! Without a measurement it is the radius itself (PCF and VSM), the settings' smallest radius (PCSS), 0 (one tap), so a PCSS map starts
 //! at the cap unless `radius_min_world` or `texel_floor_world` bound it.
 
 use scumble_core::{Demand, Filter, Fit, Light, Settings};
@@ -11,10 +11,7 @@ pub fn demand(settings: &Settings, filter: &Filter, fit: &Fit, measured: Option<
         Some(Some(radius_per_scale)) => Demand::Radius(radius_per_scale * measure_scale(fit)),
         Some(None) => Demand::Nothing,
         None => {
-            let radius = match *filter {
-                Filter::Pcf { radius_world } => radius_world,
-                Filter::Hard | Filter::Pcss => 0.0,
-            };
+            let radius = filter.fixed_radius_world().unwrap_or(0.0);
             Demand::Radius(settings.demand_radius_world(radius, 0.0))
         }
     }

@@ -35,6 +35,21 @@ pub enum Error {
         /// Layers of the texture.
         allocated: u32,
     },
+    /// The filter needs textures that were not allocated.
+    #[error(
+        "the options ask for vsm, whose moments are allocated at creation; these shadows were created with another \
+         filter, so none, pcf and pcss are possible"
+    )]
+    MomentsAllocated,
+    /// The device cannot make moments.
+    #[error(
+        "vsm needs compute shaders that store to 1 texture a stage; this device allows {found} \
+         (`Limits::max_storage_textures_per_shader_stage`)"
+    )]
+    NoMoments {
+        /// Storage textures a stage of the device, 0 without compute shaders.
+        found: u32,
+    },
     /// More lights than the shaders know.
     #[error("the plan has {found} lights; {LIGHTS_MAX} are possible")]
     TooManyLights {

@@ -5,7 +5,8 @@
 //! 1. [`Shadows::read_demand`] takes what the GPU measured some frames ago, if anything has arrived.
 //! 2. [`Shadows::plan`] turns camera, scene bounds and lights into [`View`]s: matrix, viewport, layer of each map.
 //! 3. [`Shadows::upload`] tells the shaders.
-//! 4. [`Shadows::begin`] gives a depth-only pass for each view; the caller draws its casters.
+//! 4. [`Shadows::begin`] gives a depth-only pass for each view; the caller draws its casters. [`Shadows::prefilter`] then
+//!    makes the moments of a variance shadow map; with other filters it does nothing.
 //! 5. [`Shadows::measure`], optional, looks at a depth prepass and finds the smallest radius on screen (Kreuzer 2017,
 //!    Eq. 5.12), and where everything is lit or dark: there the shading needs one lookup and no filter.
 //! 6. The caller shades: [`shadow_wgsl`] before its shader, [`Shadows::bind_group`] bound, `shadow_visibility` called.
@@ -23,6 +24,7 @@
 //! for view in plan.views() {
 //!     draw_casters(&mut shadows.begin(encoder, view), view.clip_from_world);
 //! }
+//! shadows.prefilter(encoder);
 //! shadows.measure(queue, encoder, prepass, &camera)?;
 //! # Ok(()) }
 //! ```
@@ -38,6 +40,7 @@ mod demand;
 mod error;
 mod maps;
 mod measure;
+mod moments;
 mod options;
 mod plan;
 mod readback;
@@ -52,7 +55,9 @@ pub use measure::NOTHING as MEASURE_NOTHING;
 pub use options::{Options, SizeChoice};
 pub use plan::filter_constant;
 pub use scumble_core::{self, Aabb, Camera, Filter, Light, Settings, Splits};
-pub use shaders::{CLASSIFY_WGSL, CLEAR_WGSL, FILTER_OVERRIDE, measure_wgsl, shadow_wgsl};
+pub use shaders::{
+    CLASSIFY_WGSL, CLEAR_WGSL, FILTER_OVERRIDE, measure_wgsl, shadow_wgsl, vsm_box_wgsl, vsm_reduce_wgsl,
+};
 pub use shadows::Shadows;
-pub use uniforms::{BLOCKER_TAPS, CASCADES_MAX, LIGHTS_MAX, MAPS_MAX, PCF_TAPS};
+pub use uniforms::{BLOCKER_TAPS, CASCADES_MAX, LIGHTS_MAX, MAPS_MAX, MOMENT_TAPS, PCF_TAPS};
 pub use view::{Plan, View};

@@ -50,6 +50,16 @@ impl Maps {
         Self { cap, layers, sampled, texture, clear: clear_pipeline(device) }
     }
 
+    /// Texels per side.
+    pub fn cap(&self) -> u32 {
+        self.cap
+    }
+
+    /// Each layer by itself.
+    pub fn layers(&self) -> &[wgpu::TextureView] {
+        &self.layers
+    }
+
     /// All layers, for sampling.
     pub fn sampled(&self) -> &wgpu::TextureView {
         &self.sampled

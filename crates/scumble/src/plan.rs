@@ -13,6 +13,7 @@ use scumble_core::{
 
 use crate::demand::{demand, lent};
 use crate::error::Error;
+use crate::moments::blocks_of;
 use crate::options::{Options, SizeChoice};
 use crate::uniforms::{CASCADES_MAX, LIGHTS_MAX, LightUniform, LightsUniform, MapUniform};
 use crate::view::{Plan, View};
@@ -29,8 +30,13 @@ fn filter_kind(filter: &Filter) -> u32 {
         Filter::Hard => 0,
         Filter::Pcf { .. } => 1,
         Filter::Pcss => 2,
+        Filter::Vsm { .. } => 3,
     }
 }
+
+/// What a box of moments reaches beyond its radius, in radii: half a block on either side and one for bilinear values,
+/// of which the radius measures 3.47 at least.
+const VSM_MARGIN: f64 = 1.5 / 3.47;
 
 /// State of a map between frames.
 #[derive(Clone, Debug)]
@@ -124,6 +130,7 @@ fn border_world(fit: &Fit, filter: &Filter) -> f64 {
         Filter::Hard => 0.0,
         Filter::Pcf { radius_world } => radius_world,
         Filter::Pcss => filter::search_radius_world(fit, fit.depth_far),
+        Filter::Vsm { radius_world } => radius_world * (1.0 + VSM_MARGIN),
     };
     let outside = (fit.extent_world * fit.scale - fit.extent_world).max_element();
     reach.min(outside.max(0.0))
@@ -176,10 +183,7 @@ fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUnifor
         DMat4::from_translation(DVec3::new(0.0, 0.0, -depth_of_zero)) * DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0));
     let light_from_world: Mat4 =
         (z_as_depth * fit.light_from_world * DMat4::from_translation(options.origin_world)).as_mat4();
-    let radius_world = match options.filter {
-        Filter::Pcf { radius_world } => radius_world,
-        Filter::Hard | Filter::Pcss => 0.0,
-    };
+    let radius_world = options.filter.fixed_radius_world().unwrap_or(0.0);
     MapUniform {
         clip_from_world: view.clip_from_world.to_cols_array_2d(),
         light_from_world: light_from_world.to_cols_array_2d(),
@@ -199,6 +203,9 @@ fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUnifor
         slope_max: settings.bias.slope_angle_max.tan() as f32,
         has_map: 1,
         filter_kind: filter_kind(&options.filter),
+        deviation_min_texels: settings.variance.deviation_min_texels as f32,
+        bleeding_cut: settings.variance.bleeding_cut as f32,
+        moment_block: blocks_of(texel_world, radius_world).map(|texels| texels as f32),
         padding: [0; 2],
     }
 }

@@ -6,8 +6,12 @@ const ROTATION: &str = include_str!("../shader/rotation.wgsl");
 const RECEIVER: &str = include_str!("../shader/receiver.wgsl");
 const PCF: &str = include_str!("../shader/pcf.wgsl");
 const PCSS: &str = include_str!("../shader/pcss.wgsl");
+const VSM: &str = include_str!("../shader/vsm.wgsl");
 const VISIBILITY: &str = include_str!("../shader/visibility.wgsl");
 const MEASURE: &str = include_str!("../shader/measure.wgsl");
+const VSM_MAP: &str = include_str!("../shader/vsm_map.wgsl");
+const VSM_REDUCE: &str = include_str!("../shader/vsm_reduce.wgsl");
+const VSM_BOX: &str = include_str!("../shader/vsm_box.wgsl");
 
 /// The pass that clears a viewport.
 pub const CLEAR_WGSL: &str = include_str!("../shader/clear.wgsl");
@@ -16,7 +20,7 @@ pub const CLEAR_WGSL: &str = include_str!("../shader/clear.wgsl");
 pub const CLASSIFY_WGSL: &str = include_str!("../shader/classify.wgsl");
 
 /// Parts of `shadow_visibility`, in the order in which they are joined.
-const PARTS: [&str; 7] = [BINDINGS, SLICES, ROTATION, RECEIVER, PCF, PCSS, VISIBILITY];
+const PARTS: [&str; 8] = [BINDINGS, SLICES, ROTATION, RECEIVER, PCF, PCSS, VSM, VISIBILITY];
 
 /// The pipeline constant that fixes the filter at compile time, so that the branches of the others go away:
 /// `"shadow_filter"` with [`filter_constant`](crate::filter_constant)'s value. Left out, the filter is the uploaded one.
@@ -36,4 +40,14 @@ pub fn shadow_wgsl(group: u32) -> String {
 /// The demand pass, for tests that look at it.
 pub fn measure_wgsl() -> String {
     [&shadow_wgsl(0), MEASURE].join("\n")
+}
+
+/// The first pass of variance shadow maps, for tests that look at it.
+pub fn vsm_reduce_wgsl() -> String {
+    [VSM_MAP, VSM_REDUCE].join("\n")
+}
+
+/// The second and third pass of variance shadow maps, for tests that look at it.
+pub fn vsm_box_wgsl() -> String {
+    [VSM_MAP, VSM_BOX].join("\n")
 }

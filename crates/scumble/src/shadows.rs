@@ -8,9 +8,10 @@ use crate::demand::measure_scale;
 use crate::error::Error;
 use crate::maps::{MAP_FORMAT, Maps, depth_state};
 use crate::measure::{Measure, Request, Scale};
+use crate::moments::{Moments, Task};
 use crate::options::Options;
 use crate::plan::{MapState, plan};
-use crate::uniforms::{BLOCKER_TAPS, MAPS_MAX, PCF_TAPS};
+use crate::uniforms::{BLOCKER_TAPS, MAPS_MAX, MOMENT_TAPS, PCF_TAPS};
 use crate::view::{Plan, View};
 
 /// Adaptive shadow maps of one renderer. The steps of a frame are at the head of the crate.
@@ -20,6 +21,7 @@ pub struct Shadows {
     settings: Settings,
     options: Options,
     maps: Maps,
+    moments: Option<Moments>,
     bindings: Bindings,
     measure: Option<Measure>,
     states: Vec<MapState>,
@@ -32,6 +34,7 @@ pub struct Shadows {
 struct Uploaded {
     lights: u32,
     scale: Scale,
+    moments: Vec<Task>,
 }
 
 impl Shadows {
@@ -43,10 +46,11 @@ impl Shadows {
         Self::with_options(device, settings, Options::default())
     }
 
-    /// Allocates `options.maps` maps at the settings' cap, 4 bytes a texel: all the memory this will ever take.
+    /// Allocates `options.maps` maps at the settings' cap, 4 bytes a texel, and with VSM their moments, 8 bytes a texel of
+    /// one map more: all the memory this will ever take.
     ///
     /// # Errors
-    /// Settings or options out of range, and a cap above the device's limit.
+    /// Settings or options out of range, a cap above the device's limit, VSM on a device without compute shaders.
     pub fn with_options(device: &wgpu::Device, settings: Settings, options: Options) -> Result<Self, Error> {
         let settings = settings.checked()?;
         let device_limit = device.limits().max_texture_dimension_2d;
@@ -55,19 +59,27 @@ impl Shadows {
         }
         let options = options.checked(settings.cap)?;
         let maps = Maps::new(device, settings.cap, options.maps);
-        let bindings = Bindings::new(device, &maps);
+        let moments = match options.filter {
+            Filter::Vsm { .. } => Some(Moments::new(device, &maps)?),
+            Filter::Hard | Filter::Pcf { .. } | Filter::Pcss => None,
+        };
+        let bindings = Bindings::new(device, &maps, moments.as_ref());
         let state = MapState { policy: TexelPolicy::new(&settings)?, measured: None };
-        let counters =
-            Counters { allocations: 1 + Bindings::ALLOCATIONS, map_bytes: maps.bytes(), ..Counters::default() };
+        let counters = Counters {
+            allocations: 1 + Bindings::ALLOCATIONS + moments.as_ref().map_or(1, Moments::allocations),
+            map_bytes: maps.bytes() + moments.as_ref().map_or(0, Moments::bytes),
+            ..Counters::default()
+        };
         Ok(Self {
             device: device.clone(),
             states: vec![state; options.maps as usize],
             settings,
             options,
             maps,
+            moments,
             bindings,
             measure: None,
-            uploaded: Uploaded { lights: 0, scale: [None; MAPS_MAX as usize] },
+            uploaded: Uploaded { lights: 0, scale: [None; MAPS_MAX as usize], moments: Vec::new() },
             counters,
         })
     }
@@ -88,11 +100,14 @@ impl Shadows {
     /// cascades, forget what was measured.
     ///
     /// # Errors
-    /// Options out of range, and another number of maps than were allocated.
+    /// Options out of range, another number of maps than were allocated, and VSM where it was not the filter at creation.
     pub fn set_options(&mut self, options: Options) -> Result<(), Error> {
         let options = options.checked(self.settings.cap)?;
         if options.maps != self.options.maps {
             return Err(Error::MapsAllocated { found: options.maps, allocated: self.options.maps });
+        }
+        if self.moments.is_none() && matches!(options.filter, Filter::Vsm { .. }) {
+            return Err(Error::MomentsAllocated);
         }
         if (options.filter, options.cascades) != (self.options.filter, self.options.cascades) {
             for state in &mut self.states {
@@ -123,15 +138,23 @@ impl Shadows {
         self.uploaded = Uploaded {
             lights: plan.views.iter().map(|view| view.light + 1).max().unwrap_or(0),
             scale: [None; MAPS_MAX as usize],
+            moments: Vec::new(),
         };
         for view in &plan.views {
             self.uploaded.scale[view.layer as usize] = Some(measure_scale(&view.fit));
         }
+        if let (Some(moments), Filter::Vsm { radius_world }) = (&self.moments, self.options.filter) {
+            self.uploaded.moments = plan.views.iter().map(|view| Task::new(view, radius_world)).collect();
+            self.uploaded.moments.iter().for_each(|task| moments.write(queue, task));
+        }
         self.counters.texels = plan.texels();
+        self.counters.moment_taps = self.uploaded.moments.iter().map(Task::taps).sum();
+        self.counters.moment_blocks = self.uploaded.moments.iter().map(Task::blocks).sum();
         self.counters.taps_per_pixel = match self.options.filter {
             Filter::Hard => 1,
             Filter::Pcf { .. } => PCF_TAPS,
             Filter::Pcss => BLOCKER_TAPS + PCF_TAPS,
+            Filter::Vsm { .. } => MOMENT_TAPS,
         };
     }
 
@@ -144,6 +167,17 @@ impl Shadows {
     ) -> wgpu::RenderPass<'encoder> {
         self.counters.map_passes += 1;
         self.maps.begin(encoder, view)
+    }
+
+    /// Records what the filter makes of the maps uploaded last, after their casters are drawn and before anything is shaded
+    /// or measured: the moments of VSM. Other filters read the maps as they are, and nothing is recorded for them.
+    pub fn prefilter(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        if let Some(moments) = &self.moments
+            && !self.uploaded.moments.is_empty()
+        {
+            moments.record(encoder, &self.uploaded.moments);
+            self.counters.moment_passes += self.uploaded.moments.len() as u64;
+        }
     }
 
     /// Depth state of the casters' pipelines. No depth bias is needed: the receivers carry it.

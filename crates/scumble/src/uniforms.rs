@@ -1,4 +1,4 @@
-//! The Rust twins of the structs in `shader/bindings.wgsl` and `shader/measure.wgsl`.
+//! The Rust twins of the structs in `shader/bindings.wgsl`, `shader/measure.wgsl` and `shader/vsm_map.wgsl`.
 //!
 //! Field order, offsets and constants are those of the shaders; `tests/shaders.rs` compares them with naga's layouts.
 
@@ -15,6 +15,8 @@ pub const MAPS_MAX: u32 = LIGHTS_MAX * CASCADES_MAX;
 pub const PCF_TAPS: u32 = Taps::FILTER as u32;
 /// Taps of the blocker search; `SHADOW_BLOCKER_TAPS` of the shaders.
 pub const BLOCKER_TAPS: u32 = Taps::BLOCKER as u32;
+/// Lookups of moments of one pixel: a bilinear value.
+pub const MOMENT_TAPS: u32 = 4;
 
 /// One map as the shaders see it. Spaces and units: head of `shader/bindings.wgsl`.
 #[repr(C)]
@@ -56,8 +58,30 @@ pub struct MapUniform {
     pub has_map: u32,
     /// `SHADOW_FILTER_…` of the shaders.
     pub filter_kind: u32,
+    /// Smallest standard deviation of depth under VSM, texels at the receiver.
+    pub deviation_min_texels: f32,
+    /// Share of the light that VSM counts as dark.
+    pub bleeding_cut: f32,
+    /// Texels of a block of VSM along x and y.
+    pub moment_block: [f32; 2],
     /// Unused.
     pub padding: [u32; 2],
+}
+
+/// One map as the passes of variance shadow maps see it; `Moments` of `shader/vsm_map.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct MomentsUniform {
+    /// Size of the viewport in texels.
+    pub viewport: [u32; 2],
+    /// Texels of a block along x and y.
+    pub block: [u32; 2],
+    /// Half sides of the kernel in blocks.
+    pub radius: [f32; 2],
+    /// Near plane's depth by the far plane's under a spot; 1 where map depth is linear.
+    pub near_over_far: f32,
+    /// Unused.
+    pub padding: u32,
 }
 
 /// The maps of one light: consecutive, from the nearest slice on.

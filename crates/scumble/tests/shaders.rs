@@ -3,7 +3,7 @@
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use scumble::{
     BLOCKER_TAPS, CASCADES_MAX, FILTER_OVERRIDE, LIGHTS_MAX, MAPS_MAX, PCF_TAPS, filter_constant, measure_wgsl,
-    shadow_wgsl,
+    shadow_wgsl, vsm_box_wgsl, vsm_reduce_wgsl,
 };
 use scumble_core::Filter;
 
@@ -30,12 +30,13 @@ fn with_use(group: u32) -> String {
     )
 }
 
-fn filters() -> [(&'static str, f64); 4] {
+fn filters() -> [(&'static str, f64); 5] {
     [
         ("none", filter_constant(&Filter::Hard)),
         ("pcf", filter_constant(&Filter::Pcf { radius_world: 1.0 })),
         ("pcss", filter_constant(&Filter::Pcss)),
-        ("as uploaded", 3.0),
+        ("vsm", filter_constant(&Filter::Vsm { radius_world: 1.0 })),
+        ("as uploaded", 4.0),
     ]
 }
 
@@ -61,6 +62,20 @@ fn every_shader_is_valid_with_every_filter() {
 }
 
 #[test]
+fn the_passes_of_moments_are_valid_along_both_axes() {
+    validate(&vsm_reduce_wgsl());
+    let (module, info) = validate(&vsm_box_wgsl());
+    for axis in [0.0, 1.0] {
+        let constants = [("box_axis".to_owned(), axis)].into_iter().collect();
+        let (fixed, _) = naga::back::pipeline_constants::process_overrides(&module, &info, None, &constants)
+            .unwrap_or_else(|error| panic!("{axis}: {error}"));
+        Validator::new(ValidationFlags::all(), Capabilities::all())
+            .validate_resolved_overrides(&fixed)
+            .unwrap_or_else(|error| panic!("{axis}: {error}"));
+    }
+}
+
+#[test]
 fn a_wrong_shader_is_found_by_the_same_check() {
     let wrong = with_use(0).replace("shadow_visibility(0u, at.xyz", "shadow_visibility(0u, at");
     assert!(std::panic::catch_unwind(|| validate(&wrong)).is_err());
@@ -74,7 +89,7 @@ fn the_bindings_move_to_the_callers_group() {
         .iter()
         .filter_map(|(_, variable)| variable.binding.as_ref().map(|binding| binding.group))
         .collect();
-    assert_eq!(groups, [2, 2, 2, 2, 2]);
+    assert_eq!(groups, [2; 6]);
 }
 
 #[test]
@@ -111,7 +126,9 @@ macro_rules! assert_same_layout {
 
 #[test]
 fn structs_have_the_same_offsets_in_rust_and_wgsl() {
-    use scumble::uniforms::{LightUniform, LightsUniform, MapUniform, MeasureUniform, TapsUniform};
+    use scumble::uniforms::{LightUniform, LightsUniform, MapUniform, MeasureUniform, MomentsUniform, TapsUniform};
+    let passes = parse(&vsm_reduce_wgsl());
+    assert_same_layout!(passes, "Moments", MomentsUniform, [viewport, block, radius, near_over_far, padding]);
     let module = parse(&measure_wgsl());
     assert_same_layout!(
         module,
@@ -136,6 +153,9 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
             slope_max,
             has_map,
             filter_kind,
+            deviation_min_texels,
+            bleeding_cut,
+            moment_block,
             padding,
         ]
     );
@@ -188,8 +208,8 @@ fn constants_are_the_same_in_rust_and_wgsl() {
     let share = scumble::scumble_core::filter::SEARCH_SHARE as f32;
     assert_eq!(constant(&module, "SHADOW_SEARCH_SHARE"), f64::from(share));
     assert_eq!(scumble::MEASURE_NOTHING, f32::INFINITY.to_bits());
-    let kinds = ["SHADOW_FILTER_HARD", "SHADOW_FILTER_PCF", "SHADOW_FILTER_PCSS", "SHADOW_FILTER_UPLOADED"];
+    let kinds = ["HARD", "PCF", "PCSS", "VSM", "UPLOADED"].map(|name| format!("SHADOW_FILTER_{name}"));
     for (name, (_, value)) in kinds.into_iter().zip(filters()) {
-        assert_eq!(constant(&module, name), value, "{name}");
+        assert_eq!(constant(&module, &name), value, "{name}");
     }
 }

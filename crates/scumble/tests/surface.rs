@@ -139,7 +139,7 @@ fn the_counters_count_and_nothing_is_allocated_after_the_first_frames() {
     let mut rig = Rig::new(settings(128), fixed(Filter::Pcss, 100), &ground_and(slab(1.0, 0.0)));
     let lights = [sun_above(0.1)];
     let created = rig.shadows.counters();
-    assert_eq!((created.allocations, created.map_bytes, created.map_passes), (5, 128 * 128 * 4, 0));
+    assert_eq!((created.allocations, created.map_bytes, created.map_passes), (6, 128 * 128 * 4, 0));
     let mut encoder = gpu().encoder();
     let prepass = rig.casters.draw_prepass(gpu(), &mut encoder, &rig.camera, DVec3::ZERO, [32; 2]);
     gpu().finish(encoder);

@@ -214,6 +214,7 @@ fn filtered_visibility_is_that_of_the_cpu_over_the_same_map() {
                             let depth_at = |offset| map.depth_at(position, offset);
                             filter::pcss(depth_at, lookup, &taps, turn, &view.fit, &plane, 0.0).visibility
                         }
+                        Filter::Vsm { .. } => unreachable!("compared in tests/moments.rs"),
                     }
                 })
                 .collect();

@@ -41,7 +41,8 @@ fn a_surface_under_nothing_is_fully_lit_however_it_is_tilted() {
         let turn = glam::Quat::from_euler(glam::EulerRot::YXZ, 0.3, 0.0, tilt);
         let plane =
             quad([[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]].map(|[x, z]| turn * Vec3::new(x, 0.0, z)));
-        for filter in [Filter::Hard, Filter::Pcf { radius_world: 0.2 }, Filter::Pcss] {
+        let radius_world = 0.2;
+        for filter in [Filter::Hard, Filter::Pcf { radius_world }, Filter::Pcss, Filter::Vsm { radius_world }] {
             let mut rig = Rig::new(settings(128), fixed(filter, 96), &plane);
             rig.camera = camera_above(DVec3::ZERO);
             rig.draw(&[Light::Directional { direction: DVec3::new(0.1, -1.0, -0.2), half_angle: 0.1 }]);
@@ -222,7 +223,8 @@ fn a_light_that_reaches_nothing_on_screen_has_no_map_and_leaves_everything_lit()
 fn a_scene_a_million_metres_away_looks_the_same_about_its_origin() {
     let far = DVec3::new(1.0e6, -2.0e6, 3.0e6);
     for light in [sun_above(0.1), Light::Directional { direction: DVec3::new(0.2, -1.0, 0.4), half_angle: 0.1 }] {
-        for filter in [Filter::Hard, Filter::Pcf { radius_world: 0.3 }, Filter::Pcss] {
+        for filter in [Filter::Hard, Filter::Pcf { radius_world: 0.3 }, Filter::Pcss, Filter::Vsm { radius_world: 0.3 }]
+        {
             let seen: Vec<Vec<f32>> = [DVec3::ZERO, far]
                 .into_iter()
                 .map(|origin_world| {
@@ -240,13 +242,18 @@ fn a_scene_a_million_metres_away_looks_the_same_about_its_origin() {
 
 #[test]
 fn the_filter_as_a_constant_gives_what_the_uploaded_filter_gives() {
-    let kinds = [("0u", Filter::Hard), ("1u", Filter::Pcf { radius_world: 0.3 }), ("2u", Filter::Pcss)];
+    let kinds = [
+        ("0u", Filter::Hard),
+        ("1u", Filter::Pcf { radius_world: 0.3 }),
+        ("2u", Filter::Pcss),
+        ("3u", Filter::Vsm { radius_world: 0.3 }),
+    ];
     for (value, filter) in kinds {
         let mut rig = Rig::new(settings(128), fixed(filter, 128), &ground_and(slab(2.0, 0.3)));
         rig.draw(&[sun_above(0.2)]);
         let uploaded = rig.visibility(&grid(20));
         let fixed_wgsl = scumble::shadow_wgsl(0)
-            .replace("override shadow_filter: u32 = 3u", &format!("override shadow_filter: u32 = {value}"));
+            .replace("override shadow_filter: u32 = 4u", &format!("override shadow_filter: u32 = {value}"));
         let rows: Vec<[[f32; 4]; 4]> = grid(20)
             .iter()
             .map(|p| {

@@ -80,7 +80,7 @@ pub struct Bench {
     /// Filters, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', default_value = "pcf,pcss")]
     pub methods: Vec<Method>,
-    /// How soft, separated by commas: times the radius of pcf and the size of the light for pcss
+    /// How soft, separated by commas: times the radius of pcf and vsm and the size of the light for pcss
     #[arg(long, value_delimiter = ',', default_value = "1", value_name = "F,F", value_parser = positive)]
     pub softness: Vec<f64>,
     /// Sizes, separated by commas: `adaptive`, N or NxM. N+blocks is a fixed size with the pass of an adaptive one that
@@ -140,7 +140,7 @@ pub struct Truth {
     /// Which filter the kernel truth is of; the light has none
     #[arg(long, value_enum, default_value_t = Method::Pcss)]
     pub method: Method,
-    /// Rays of every pixel: taps of the kernel, 1 to 1024 [default: the renderer's 25], or points of the light, one of
+    /// Rays of every pixel: taps of the kernel, 1 to 1024 [default: the renderer's 25, of vsm 64], or points of the light, one of
     /// 64, 128, 256, 512 and 1024 [default: 256]
     #[arg(long, value_name = "N")]
     pub samples: Option<u32>,
@@ -191,14 +191,14 @@ pub struct Conditions {
     /// Size of the light: half angle in degrees of a sun, radius in metres of a lamp [default: the scene's]
     #[arg(long, value_name = "W", value_parser = positive, allow_negative_numbers = true)]
     pub light_size: Option<f64>,
-    /// Filter radius of pcf in metres at the shadow [default: the scene's]
+    /// Filter radius of pcf, half side of vsm, in metres at the shadow [default: the scene's]
     #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     pub radius: Option<f64>,
     /// relation.json of a study: texels per filter radius [default: the published 3.47]
     #[arg(long, value_name = "FILE")]
     pub relation: Option<PathBuf>,
     /// Most texels per side of an adaptive map. Where the screen asks for more, pcss widens its narrowest shadows to
-    /// what the map hides; pcf keeps its radius and shows texels; the records say `capped`
+    /// what the map hides; pcf and vsm keep their radius and show texels; the records say `capped`
     #[arg(long, default_value_t = 1024, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=16_384))]
     pub cap: u32,
     /// Pixels across
@@ -221,6 +221,8 @@ pub enum Method {
     Pcf,
     /// Percentage-closer soft shadows: the radius grows with the distance of the blocker
     Pcss,
+    /// A variance shadow map with a fixed radius: filtered once a frame, bleeds where occluders lie above each other
+    Vsm,
 }
 
 impl Method {
@@ -230,6 +232,7 @@ impl Method {
             Self::None => "none",
             Self::Pcf => "pcf",
             Self::Pcss => "pcss",
+            Self::Vsm => "vsm",
         }
     }
 }

@@ -16,7 +16,7 @@ const HALF_ANGLE_MAX_DEG: f64 = 45.0;
 pub struct Setup {
     /// Meshes, camera with the aspect of the picture, light with the size asked for.
     pub scene: Scene,
-    /// The radius of PCF at the light's reference plane, metres; see [`pcf_radius_plane`].
+    /// The radius of PCF and VSM at the light's reference plane, metres; see [`pcf_radius_plane`].
     pub pcf_radius_plane: f64,
     /// Most texels per side of an adaptive map.
     pub cap: u32,
@@ -48,6 +48,7 @@ impl Setup {
             Method::None => Filter::Hard,
             Method::Pcf => Filter::Pcf { radius_world: self.pcf_radius_plane * softness },
             Method::Pcss => Filter::Pcss,
+            Method::Vsm => Filter::Vsm { radius_world: self.pcf_radius_plane * softness },
         }
     }
 

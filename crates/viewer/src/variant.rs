@@ -112,7 +112,7 @@ impl Variant {
         !matches!(self.case.size, Size::Fixed(_))
     }
 
-    /// One frame as a renderer would do it: plan, depth pass, demand (adaptive sizes only), evaluation.
+    /// One frame as a renderer would do it: plan, depth pass, moments (vsm only), demand (adaptive sizes only), evaluation.
     pub fn frame(&mut self, stage: &Stage, gbuffer: &GBuffer, timer: &mut Timer) -> Result<Times> {
         let scene = &stage.setup.scene;
         self.shadows.read_demand();
@@ -127,6 +127,10 @@ impl Variant {
             self.casters.draw(&mut self.shadows.begin(&mut encoder, view), &matrix, &stage.geometry);
         }
         timer.mark(&mut encoder, "depth");
+        if let Filter::Vsm { .. } = self.filter {
+            self.shadows.prefilter(&mut encoder);
+            timer.mark(&mut encoder, "moments");
+        }
         if self.measures() {
             self.measure(stage, gbuffer, &mut encoder)?;
             timer.mark(&mut encoder, "demand");

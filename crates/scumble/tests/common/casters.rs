@@ -62,12 +62,13 @@ impl Casters {
         }
     }
 
-    /// Draws all maps of a plan.
+    /// Draws all maps of a plan, and what their filter makes of them.
     pub fn draw_maps(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, shadows: &mut Shadows, plan: &Plan) {
         for view in plan.views() {
             let matrix = self.matrix(gpu, view.clip_from_world);
             self.draw(&mut shadows.begin(encoder, view), &self.map, &matrix);
         }
+        shadows.prefilter(encoder);
     }
 
     /// Draws the depth prepass into a fresh texture.

@@ -12,6 +12,7 @@ use crate::statistics::Spread;
 /// The parts of a frame, as the columns name them, in words.
 const PARTS: [(&str, &str); 5] = [
     ("depth", "depth pass of the shadow map"),
+    ("moments", "filtering the map, vsm only"),
     ("demand", "demand pass, which a fixed size has not"),
     ("evaluation", "filter at every pixel"),
     ("total", "the three together"),
@@ -43,10 +44,10 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
     let mut columns = vec![
         column("scene", "name of the scene", Box::new(|row| row.key.scene.clone())),
         column("triangles", "triangles of the scene", Box::new(|row| row.triangles.to_string())),
-        column("method", "filter: `none`, `pcf` or `pcss`", Box::new(|row| row.key.method.clone())),
+        column("method", "filter: `none`, `pcf`, `pcss` or `vsm`", Box::new(|row| row.key.method.clone())),
         column(
             "softness",
-            "times the filter radius (pcf) or light size (pcss) of the run",
+            "times the filter radius (pcf, vsm) or light size (pcss) of the run",
             Box::new(|row| row.key.softness.to_string()),
         ),
         column(

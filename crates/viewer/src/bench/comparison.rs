@@ -65,7 +65,7 @@ pub struct Comparison {
     pub flip_mean: f64,
     /// Edges; null where there are too few that are shadows' alone.
     pub edges: Option<Edges>,
-    /// Against the light itself; null for pcf, whose radius is no light's.
+    /// Against the light itself; null for pcf and vsm, whose radius is no light's.
     pub light: Option<LightComparison>,
     /// Share of the penumbra in which texels are seen; null without a soft filter or a map.
     pub violation_share: Option<f64>,

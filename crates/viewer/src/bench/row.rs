@@ -18,6 +18,10 @@ use crate::variant::{Case, Variant};
 
 /// Bytes of a texel: the maps are 32-bit depth.
 const TEXEL_BYTES: u64 = 4;
+/// Bytes of a block of moments, in two textures.
+const BLOCK_BYTES: u64 = 16;
+/// Passes that make the moments of a map.
+const MOMENT_PASSES: usize = 3;
 
 /// Medians and quartiles in milliseconds by part of the shadow (`depth`, `demand`, `evaluation`), of their `total`, and of
 /// the `drawing` of the picture, which is the scene's; empty on a device without timestamps.
@@ -28,9 +32,9 @@ pub type Spreads = BTreeMap<String, Spread>;
 pub struct Key {
     /// Name of the scene.
     pub scene: String,
-    /// `none`, `pcf` or `pcss`.
+    /// `none`, `pcf`, `pcss` or `vsm`.
     pub method: String,
-    /// Times the filter radius (pcf) or light size (pcss) of the run.
+    /// Times the filter radius (pcf, vsm) or light size (pcss) of the run.
     pub softness: f64,
     /// `adaptive`, N or NxM.
     pub size: String,
@@ -118,11 +122,11 @@ pub struct Row {
     pub texels: u64,
     /// What was allocated and used for each light.
     pub maps: Vec<MapRecord>,
-    /// Bytes of the texels in use.
+    /// Bytes of the texels in use, and of their moments.
     pub bytes_used: u64,
-    /// Bytes of the whole texture.
+    /// Bytes of the whole textures.
     pub bytes_allocated: u64,
-    /// Depth, demand and evaluation passes of one frame.
+    /// Depth, moment, demand and evaluation passes of one frame.
     pub passes: u32,
     /// Map lookups of one pixel at most.
     pub taps_per_pixel: u32,
@@ -147,14 +151,15 @@ impl Row {
         let plan = variant.plan()?;
         let counters = variant.counters();
         let maps = MapRecord::of(plan, variant.cap());
+        let moment_passes = if counters.moment_blocks > 0 { MOMENT_PASSES } else { 0 };
         let pictures = files.into_iter().map(|(name, path)| (name.to_owned(), relative(&path, out))).collect();
         Ok(Self {
             key: Key::of(&stage.setup.scene.name, &variant.case),
             triangles: stage.setup.scene.triangle_count(),
             texels: plan.texels(),
-            passes: maps.len() as u32 + 1 + u32::from(variant.measures()),
+            passes: (maps.len() * (1 + moment_passes)) as u32 + 1 + u32::from(variant.measures()),
             maps,
-            bytes_used: plan.texels() * TEXEL_BYTES,
+            bytes_used: plan.texels() * TEXEL_BYTES + counters.moment_blocks * BLOCK_BYTES,
             bytes_allocated: counters.map_bytes,
             taps_per_pixel: counters.taps_per_pixel,
             times_ms,

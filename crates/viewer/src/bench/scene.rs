@@ -166,8 +166,9 @@ fn truths(
         let found = store.find(&message, &source, &stage.setup.scene.meshes, &screen.surfaces, screen.size_px)?;
         anyhow::Ok(found.estimates)
     };
-    let kernel: Vec<f32> = find(method.name(), Samples::of_renderer())?.iter().map(|found| found.visibility).collect();
-    let is_of_light = method != Method::Pcf;
+    let kernel: Vec<f32> =
+        find(method.name(), Samples::of_method(method))?.iter().map(|found| found.visibility).collect();
+    let is_of_light = filter.fixed_radius_world().is_none();
     let light = is_of_light.then(|| find("the light", Samples::Light(light_samples))).transpose()?;
     Ok(Truths { edges: EdgeTruth::new(screen, &kernel), kernel, light })
 }

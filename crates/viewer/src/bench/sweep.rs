@@ -26,7 +26,7 @@ const RATIOS: [f64; 12] = [0.5, 0.75, 1.0, 1.4, 2.0, 2.5, 3.0, 3.47, 4.2, 5.5, 7
 pub struct SweepPoint {
     /// Name of the scene.
     pub scene: String,
-    /// `pcf` or `pcss`.
+    /// `pcf`, `pcss` or `vsm`.
     pub method: String,
     /// Texels per filter radius that the size was chosen by.
     pub ratio: f64,
@@ -40,7 +40,7 @@ pub struct SweepPoint {
     pub p99: f64,
     /// Share of the length of edges that is tilted by more than observers miss; null where there are too few.
     pub tilt_visible_share: Option<f64>,
-    /// RMS error in the penumbra against the light; null for pcf.
+    /// RMS error in the penumbra against the light; null for pcf and vsm.
     pub light_rms: Option<f64>,
     /// Share of the penumbra that violates the run's relation; null where nothing is filtered.
     pub violation_share: Option<f64>,

@@ -24,7 +24,7 @@ pub struct TruthRecord<'a> {
     /// Taps of the filter, or rays to the light, of every pixel.
     samples: u32,
     light: &'a Light,
-    /// Radius of a PCF filter at the light's reference plane, metres; null for the light and other filters.
+    /// Radius of a PCF or VSM filter at the light's reference plane, metres; null for the light and other filters.
     pcf_radius_plane: Option<f64>,
     /// Shape of the arrays, rows from top to bottom: visibility 0 dark to 1 lit, 1 where there is no surface.
     width: u32,
@@ -72,7 +72,9 @@ impl<'a> TruthRecord<'a> {
             method: method.map(|method| method.name()),
             samples: samples.number(),
             light: &scene.light,
-            pcf_radius_plane: method.filter(|&method| method == Method::Pcf).map(|_| stage.setup.pcf_radius_plane),
+            pcf_radius_plane: method
+                .filter(|method| matches!(method, Method::Pcf | Method::Vsm))
+                .map(|_| stage.setup.pcf_radius_plane),
             width: options.view.conditions.width,
             height: options.view.conditions.height,
             standard_error: samples.of_light().map(|_| StandardErrors::of(estimates)),

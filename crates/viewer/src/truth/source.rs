@@ -6,7 +6,7 @@ use scumble_core::{Fit, Taps};
 use scumble_reference::{Estimate, KernelTruth, LightTruth, Rays, Receiver};
 use scumble_scenes::Mesh;
 
-use crate::cli::{Truth, TruthOf};
+use crate::cli::{Method, Truth, TruthOf};
 use crate::truth::key::{Key, KeyBuilder};
 
 /// Samples of the light by default: an error of about 1 % in the middle of a penumbra.
@@ -28,7 +28,7 @@ impl Samples {
     pub fn of(options: &Truth) -> Result<Self> {
         match (options.truth, options.samples) {
             (TruthOf::Kernel, samples) => {
-                let taps = samples.unwrap_or(Self::of_renderer().number());
+                let taps = samples.unwrap_or(Self::of_method(options.method).number());
                 ensure!((1..=TAPS_MAX).contains(&taps), "--samples {taps}: the kernel truth has 1 to {TAPS_MAX} taps");
                 Ok(Self::Kernel(taps))
             }
@@ -41,9 +41,13 @@ impl Samples {
         }
     }
 
-    /// As many taps as the renderer's filter has.
-    pub fn of_renderer() -> Self {
-        Self::Kernel(Taps::FILTER as u32)
+    /// As many taps as the renderer's filter has; of VSM, which has none, enough.
+    pub fn of_method(method: Method) -> Self {
+        let taps = match method {
+            Method::None | Method::Pcf | Method::Pcss => Taps::FILTER,
+            Method::Vsm => Taps::SQUARE,
+        };
+        Self::Kernel(taps as u32)
     }
 
     /// Points of the light, `None` for a filter.
@@ -87,7 +91,7 @@ impl<'a> Source<'a> {
             Samples::Kernel(taps) => Ok(match fit {
                 None => Self::Open,
                 Some(fit) => {
-                    let taps = Taps::new(Taps::BLOCKER, taps as usize);
+                    let taps = Taps::of(&filter, taps as usize);
                     Self::Kernel(KernelTruth { taps, ..KernelTruth::new(rays, fit, filter) })
                 }
             }),
