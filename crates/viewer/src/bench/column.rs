@@ -10,7 +10,7 @@ use crate::bench::row::Row;
 use crate::statistics::Spread;
 
 /// The parts of a frame, as the columns name them, in words.
-const PARTS: [(&str, &str); 5] = [
+const PARTS: [(&str, &str); 6] = [
     ("depth", "depth pass of the shadow map"),
     ("moments", "filtering the map, vsm only"),
     ("demand", "demand pass, which a fixed size has not"),
