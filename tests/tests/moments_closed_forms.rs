@@ -33,7 +33,8 @@ fn errors(casters: Vec<Vec3>, ratio: f64, expected: impl Fn(DVec2) -> f64) -> [f
     let sun = [sun_above(0.1)];
     let plan = rig.draw(&sun);
     let sides = (plan.views()[0].fit.extent_world * ratio / RADIUS_WORLD).ceil().as_uvec2().to_array();
-    rig.shadows.set_options(Options { size: SizeChoice::Fixed(sides), ..rig.shadows.options().clone() }).unwrap();
+    let exact = Options { size: SizeChoice::Fixed(sides), ..rig.shadows.options().clone() };
+    rig.shadows.set_options(exact).expect("the filter and the number of maps stay");
     rig.draw(&sun);
 
     // Anywhere (R2 sequence).
