@@ -66,6 +66,7 @@ pub fn plan(
         return Err(Error::TooManyMaps { needed, allocated: states.len() as u32 });
     }
     let mut plan = Plan {
+        camera: *camera,
         views: Vec::with_capacity(needed as usize),
         policies: states.iter().map(|state| state.policy.clone()).collect(),
         uniform: LightsUniform { view_depth: view_depth(camera, options.origin_world), ..LightsUniform::zeroed() },
@@ -82,6 +83,7 @@ pub fn plan(
     }
     Ok(plan)
 }
+
 /// The maps of one light, whose nearest slice has the layer `first`.
 fn views_of_light(
     settings: &Settings,

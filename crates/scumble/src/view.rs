@@ -1,7 +1,7 @@
 //! One map of a frame, and the plan that holds them all: what to draw, where, and how large.
 
-use glam::{DVec2, Mat4};
-use scumble_core::{Fit, Size, TexelPolicy};
+use glam::{DVec2, DVec3, Mat4};
+use scumble_core::{Camera, Fit, Size, TexelPolicy};
 
 use crate::uniforms::LightsUniform;
 
@@ -46,6 +46,7 @@ impl View {
 /// The maps of one frame. It takes effect with [`Shadows::upload`](crate::Shadows::upload).
 #[derive(Clone, Debug)]
 pub struct Plan {
+    pub(crate) camera: Camera,
     pub(crate) views: Vec<View>,
     pub(crate) policies: Vec<TexelPolicy>,
     pub(crate) uniform: LightsUniform,
@@ -62,6 +63,16 @@ impl Plan {
     /// The maps of a light, from the nearest slice on.
     pub fn views_of(&self, light: u32) -> impl Iterator<Item = &View> {
         self.views.iter().filter(move |view| view.light == light)
+    }
+
+    /// The map of a light that the shaders look a point of the world up in: that of the slice which its depth in the plan's
+    /// view lies in. `None` where everything is lit.
+    #[must_use]
+    pub fn view_at(&self, light: u32, position_world: DVec3) -> Option<&View> {
+        let depth = (position_world - self.camera.eye).dot(self.camera.forward());
+        let maps = self.uniform.lights.get(light as usize)?;
+        let slice = maps.slice_ends.iter().filter(|&&end| depth > f64::from(end)).count();
+        self.views_of(light).find(|view| view.slice as usize == slice)
     }
 
     /// Texels of all maps together.

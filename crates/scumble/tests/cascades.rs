@@ -87,6 +87,7 @@ fn every_point_on_screen_is_looked_up_in_the_map_of_its_slice_with_room_for_its_
             let is_at_end = views.iter().any(|view| (view.depth_end / depth - 1.0).abs() < 1e-5);
             let expected = views.iter().find(|view| depth <= view.depth_end).expect("the last slice has no end");
             assert!(is_at_end || map == expected.layer as f32, "{depth} {map}");
+            assert!(is_at_end || plan.view_at(0, point.position.as_dvec3()) == Some(expected));
             let view: &View = &views[map as usize];
             let reach = radius_world / view.texel_world();
             for (at, side, reach) in [(x, view.size_texels[0], reach.x), (y, view.size_texels[1], reach.y)] {

@@ -201,6 +201,10 @@ pub struct Conditions {
     /// what the map hides; pcf and vsm keep their radius and show texels; the records say `capped`
     #[arg(long, default_value_t = 1024, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=16_384))]
     pub cap: u32,
+    /// Maps of a sun, each for a slice of the view, with a size of its own; a lamp has one. --cap and fixed sizes are of each
+    /// map
+    #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4))]
+    pub cascades: u32,
     /// Pixels across
     #[arg(long, default_value_t = 1280, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub width: u32,

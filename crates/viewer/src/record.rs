@@ -13,6 +13,12 @@ use scumble::{Plan, View};
 pub struct MapRecord {
     /// Number of the light.
     pub light: u32,
+    /// Number of the slice of the view, 0 the nearest.
+    #[serde(default)]
+    pub slice: u32,
+    /// View depth at which the slice ends, metres; null for the last.
+    #[serde(default)]
+    pub depth_end_world: Option<f64>,
     /// Texels across and down of the texture it was allocated in.
     pub size: [u32; 2],
     /// The part of it in use: x, y, width, height in texels.
@@ -43,6 +49,8 @@ impl MapRecord {
         let [width, height] = view.size_texels;
         Self {
             light: view.light,
+            slice: view.slice,
+            depth_end_world: Some(view.depth_end).filter(|end| end.is_finite()),
             size: [cap, cap],
             viewport: [0, 0, width, height],
             extent_world: view.fit.extent_world.to_array(),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
-use scumble_core::{Filter, Fit, Light, Relation};
+use scumble_core::{Filter, Fit, Light, Relation, Splits, slices_of};
 use scumble_scenes::Scene;
 
 use crate::cli::{Conditions, Method};
@@ -20,6 +20,8 @@ pub struct Setup {
     pub pcf_radius_plane: f64,
     /// Most texels per side of an adaptive map.
     pub cap: u32,
+    /// Into how many slices the view of a sun is cut.
+    pub cascades: Splits,
     /// Texels per radius.
     pub relation: Relation,
     /// Where the relation comes from, for records.
@@ -39,7 +41,13 @@ impl Setup {
             Some(path) => (read_relation(path)?, path.display().to_string()),
         };
         let pcf_radius_plane = pcf_radius_plane(&scene, conditions.radius.unwrap_or(scene.pcf_radius_world))?;
-        Ok(Self { scene, pcf_radius_plane, cap: conditions.cap, relation, relation_source })
+        let cascades = Splits { count: conditions.cascades, ..Splits::default() };
+        Ok(Self { scene, pcf_radius_plane, cap: conditions.cap, cascades, relation, relation_source })
+    }
+
+    /// How many maps the light has.
+    pub fn map_count(&self) -> u32 {
+        slices_of(&self.scene.light, true, &self.cascades)
     }
 
     /// The filter of a method, `softness` times as soft as this setup; PCSS takes its softness from the light.

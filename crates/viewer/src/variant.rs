@@ -69,7 +69,14 @@ impl Variant {
             Size::Fixed(texels) | Size::Blocks(texels) => (texels[0].max(texels[1]), SizeChoice::Fixed(texels)),
         };
         let settings = Settings { cap, ..settings };
-        let options = Options { filter, size: choice, measure_stride: MEASURE_STRIDE, ..Options::default() };
+        let options = Options {
+            filter,
+            size: choice,
+            maps: stage.setup.map_count(),
+            cascades: stage.setup.cascades,
+            measure_stride: MEASURE_STRIDE,
+            ..Options::default()
+        };
         let shadows = Shadows::with_options(&stage.gpu.device, settings, options)
             .with_context(|| format!("--size {size} --method {}", method.name()))?;
         let casters = stage.pipelines.casters(&stage.gpu, &shadows);
@@ -143,15 +150,15 @@ impl Variant {
         timer.read(&stage.gpu)
     }
 
-    /// The demand of the screen under the map of the last frame, in metres at the reference plane; `None` without a
-    /// penumbra on screen.
+    /// The demand of the screen under the maps of the last frame, in metres at the reference plane: the smallest of all
+    /// maps; `None` without a penumbra on screen.
     pub fn demand_radius_world(&mut self, stage: &Stage, gbuffer: &GBuffer) -> Result<Option<f64>> {
-        let Some(view) = self.plan()?.views().first().cloned() else { return Ok(None) };
         let mut encoder = stage.gpu.encoder("demand");
         self.measure(stage, gbuffer, &mut encoder)?;
         stage.gpu.finish(encoder)?;
         self.shadows.read_demand();
-        Ok(self.shadows.measured_radius_world(&view).flatten())
+        let radii = self.plan()?.views().iter().filter_map(|view| self.shadows.measured_radius_world(view).flatten());
+        Ok(radii.min_by(f64::total_cmp))
     }
 
     fn measure(&mut self, stage: &Stage, gbuffer: &GBuffer, encoder: &mut wgpu::CommandEncoder) -> Result<()> {

@@ -57,6 +57,11 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         ),
         column("width_px", "pixels across", Box::new(move |_| width.to_string())),
         column("height_px", "pixels down", Box::new(move |_| height.to_string())),
+        column(
+            "maps",
+            "shadow maps of the light: one, or one for each slice of the view",
+            Box::new(|row| row.maps.len().to_string()),
+        ),
         column("map_width", "texels across of the first map's part in use", Box::new(|row| viewport(row, 2))),
         column("map_height", "texels down of the first map's part in use", Box::new(|row| viewport(row, 3))),
         column("texels", "texels in use, all maps together", Box::new(|row| row.texels.to_string())),
@@ -66,12 +71,12 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         column("taps_per_pixel", "map lookups of a pixel at most", Box::new(|row| row.taps_per_pixel.to_string())),
         column(
             "c_effective",
-            "radius of the demand in texels of the map; the ratio asked for where nothing was demanded",
-            Box::new(|row| number(row.maps.first().map(|map| map.c_effective))),
+            "radius of the demand in texels of the map that meets it least; the ratio asked for where nothing was demanded",
+            Box::new(|row| number(row.c_effective())),
         ),
         column(
             "capped",
-            "whether the screen asks for more texels than the map has",
+            "whether the screen asks for more texels than a map has",
             Box::new(|row| row.is_capped().to_string()),
         ),
     ];

@@ -126,7 +126,7 @@ fn faces(light: &Light, surface: &Surface) -> bool {
     is_in_cone && to_light.dot(surface.normal.as_dvec3()) > 0.0
 }
 
-/// Share of the filtered penumbra whose demand, by the setup's relation, the map does not meet.
+/// Share of the filtered penumbra whose demand, by the setup's relation, the map that a pixel reads does not meet.
 fn violation_share(
     stage: &Stage,
     variant: &Variant,
@@ -134,16 +134,17 @@ fn violation_share(
     penumbra: &[bool],
     radii: &[f32],
 ) -> Result<Option<f64>> {
-    let Some(view) = variant.plan()?.views().first() else { return Ok(None) };
+    let plan = variant.plan()?;
     let settings = Settings { relation: stage.setup.relation, ..variant.settings().clone() };
     let camera = &stage.setup.scene.camera;
-    let needed = settings.relation.radius_from_texel(view.texel_world().max_element()) * (1.0 - VIOLATION_SLACK);
-    // Only PCSS widens what is narrower than its least radius.
-    let radius_least = if variant.case.method == Method::Pcss { view.radius_min_world } else { 0.0 };
     let (mut count, mut violations) = (0u64, 0u64);
     for ((surface, &radius), _) in screen.surfaces.iter().zip(radii).zip(penumbra).filter(|(_, inside)| **inside) {
-        let Some(surface) = surface.filter(|_| radius > 0.0) else { continue };
-        let footprint = pixel_footprint_world(camera, &view.fit, surface.position.as_dvec3(), screen.size_px[1]);
+        let Some(position) = surface.filter(|_| radius > 0.0).map(|it| it.position.as_dvec3()) else { continue };
+        let Some(view) = plan.view_at(0, position) else { continue };
+        let needed = settings.relation.radius_from_texel(view.texel_world().max_element()) * (1.0 - VIOLATION_SLACK);
+        // Only PCSS widens what is narrower than its least radius.
+        let radius_least = if variant.case.method == Method::Pcss { view.radius_min_world } else { 0.0 };
+        let footprint = pixel_footprint_world(camera, &view.fit, position, screen.size_px[1]);
         let demand = settings.demand_radius_world(f64::from(radius).max(radius_least), footprint);
         count += 1;
         violations += u64::from(demand < needed);

@@ -36,17 +36,16 @@ impl DemandHistogram {
     /// Of the penumbra under a variant; `radii` are those of the filter before its lower clamp.
     pub fn of(stage: &Stage, variant: &Variant, screen: &Screen, penumbra: &[bool], radii: &[f32]) -> Result<Self> {
         let mut bins = BTreeMap::new();
-        if let Some(view) = variant.plan()?.views().first() {
-            let settings = Settings { relation: stage.setup.relation, ..variant.settings().clone() };
-            let camera = &stage.setup.scene.camera;
-            let pixels = screen.surfaces.iter().zip(radii).zip(penumbra).filter(|(_, inside)| **inside);
-            for ((surface, &radius), _) in pixels {
-                let Some(surface) = surface.filter(|_| radius > 0.0) else { continue };
-                let footprint =
-                    pixel_footprint_world(camera, &view.fit, surface.position.as_dvec3(), screen.size_px[1]);
-                let demand = settings.demand_radius_world(f64::from(radius), footprint);
-                *bins.entry(bin(settings.relation.texel_from_radius(demand))).or_default() += 1;
-            }
+        let plan = variant.plan()?;
+        let settings = Settings { relation: stage.setup.relation, ..variant.settings().clone() };
+        let camera = &stage.setup.scene.camera;
+        let pixels = screen.surfaces.iter().zip(radii).zip(penumbra).filter(|(_, inside)| **inside);
+        for ((surface, &radius), _) in pixels {
+            let Some(position) = surface.filter(|_| radius > 0.0).map(|it| it.position.as_dvec3()) else { continue };
+            let Some(view) = plan.view_at(0, position) else { continue };
+            let footprint = pixel_footprint_world(camera, &view.fit, position, screen.size_px[1]);
+            let demand = settings.demand_radius_world(f64::from(radius), footprint);
+            *bins.entry(bin(settings.relation.texel_from_radius(demand))).or_default() += 1;
         }
         Ok(Self { key: Key::of(&stage.setup.scene.name, &variant.case), bins: bins.into_iter().collect() })
     }

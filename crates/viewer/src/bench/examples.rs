@@ -52,6 +52,7 @@ pub fn options() -> OptionsRecord {
         paths: Vec::new(),
         sweep_ratio: false,
         cap: 1024,
+        cascades: 1,
         light_size: None,
         radius: None,
     }

@@ -67,10 +67,18 @@ pub struct OptionsRecord {
     pub sweep_ratio: bool,
     /// Most texels per side of an adaptive map.
     pub cap: u32,
+    /// Maps of a sun.
+    #[serde(default = "one_map")]
+    pub cascades: u32,
     /// Half angle in degrees of a sun, radius in metres of a lamp; null for each scene's own.
     pub light_size: Option<f64>,
     /// Radius of pcf in metres at the shadow; null for each scene's own.
     pub radius: Option<f64>,
+}
+
+/// What records hold that were written before there were cascades.
+fn one_map() -> u32 {
+    1
 }
 
 impl OptionsRecord {
@@ -89,6 +97,7 @@ impl OptionsRecord {
             paths: options.paths.iter().map(|path| path.name().to_owned()).collect(),
             sweep_ratio: options.sweep_ratio,
             cap: conditions.cap,
+            cascades: conditions.cascades,
             light_size: conditions.light_size,
             radius: conditions.radius,
         }

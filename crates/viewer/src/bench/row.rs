@@ -120,7 +120,7 @@ pub struct Row {
     pub triangles: usize,
     /// Texels of all maps together.
     pub texels: u64,
-    /// What was allocated and used for each light.
+    /// What was allocated and used for each light and slice of its view.
     pub maps: Vec<MapRecord>,
     /// Bytes of the texels in use, and of their moments.
     pub bytes_used: u64,
@@ -168,7 +168,12 @@ impl Row {
         })
     }
 
-    /// Whether the screen asks for more texels than the map has.
+    /// Radius of the demand in texels of the map that meets it least.
+    pub fn c_effective(&self) -> Option<f64> {
+        self.maps.iter().map(|map| map.c_effective).min_by(f64::total_cmp)
+    }
+
+    /// Whether the screen asks for more texels than a map has.
     pub fn is_capped(&self) -> bool {
         self.maps.iter().any(|map| map.capped)
     }
