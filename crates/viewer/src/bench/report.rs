@@ -66,7 +66,8 @@ pub fn report(record: &BenchRecord, out: &Path) -> Result<String> {
     );
     page += &section(
         "What the screen asks for",
-        "For every pixel of the penumbra the largest texel that its filter hides, or that a pixel covers; lines are the texels \
+        "For every pixel of the penumbra the largest texel that its filter hides, or that a pixel covers, as a length where the \
+         light measures it (for a lamp its near plane); lines are the texels \
          of the maps. Pixels left of a line see texels of that map.",
         &demands::demands(&record.demand, &pairs)?,
     );
