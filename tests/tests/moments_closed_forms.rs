@@ -142,9 +142,10 @@ fn under_a_roof_and_a_higher_edge_light_bleeds_as_the_bound_says() {
 }
 
 #[test]
-fn the_default_cut_darkens_a_penumbra_by_no_more_than_itself() {
-    let cut = VarianceBound::default().bleeding_cut;
-    let settings = Settings { cap: 1024, ..Settings::default() };
+fn a_cut_darkens_a_penumbra_by_no_more_than_itself() {
+    let cut = 0.2;
+    let variance = VarianceBound { bleeding_cut: cut, ..VarianceBound::default() };
+    let settings = Settings { cap: 1024, variance, ..Settings::default() };
     let mut rig = Rig::new(settings, fixed(Filter::Vsm { radius_world: 0.5 }, 800), &ground_and(slab(HEIGHT, 0.0)));
     rig.draw(&[sun_above(0.1)]);
     let points: Vec<Point> = (-100..=100)

@@ -43,9 +43,11 @@ pub struct VarianceBound {
 }
 
 impl Default for VarianceBound {
-    /// A tenth of a texel, as the constant part of [`Bias`](crate::Bias).
+    /// A tenth of a texel, as the constant part of [`Bias`](crate::Bias); and the cut of 0 to 0.3 with the least mean FLIP
+    /// against the kernel without texels in each of the scenes yard, stairwell, recital and contact. Larger cuts err by more
+    /// on the penumbrae than they save in bleeding.
     fn default() -> Self {
-        Self { deviation_min_texels: 0.1, bleeding_cut: 0.1 }
+        Self { deviation_min_texels: 0.1, bleeding_cut: 0.02 }
     }
 }
 
@@ -298,7 +300,7 @@ mod tests {
             println!("{radius}: {largest:.4}");
             // The ramp is straight, so bilinear values err only at its ends: by an eighth of a block's share, 1 / (2 r).
             let block = f64::from(block_texels(radius));
-            assert!(largest <= 0.5 * block / radius, "{radius}: {largest}");
+            assert!(largest <= 0.15 * block / radius, "{radius}: {largest}");
         }
     }
 
