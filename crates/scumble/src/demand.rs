@@ -1,7 +1,7 @@
 //! What is asked of a map: what the screen was measured to need, or what the bounds say.
 //!
-//! Without a measurement it is the radius itself (PCF and VSM), the settings' smallest radius (PCSS), 0 (one tap), so a PCSS map starts
-//! at the cap unless `radius_min_world` or `texel_floor_world` bound it.
+//! Without a measurement it is the radius itself (PCF), the settings' smallest radius (PCSS), 0 (one tap), so a PCSS map
+//! starts at the cap unless `radius_min_world` or `texel_floor_world` bound it.
 
 use scumble_core::{Demand, Filter, Fit, Light, Settings};
 
