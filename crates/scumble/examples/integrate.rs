@@ -25,7 +25,7 @@ impl Renderer {
         let mesh = Mesh::new(device, &shared::vertices());
         let bounds = Aabb::from_points(shared::vertices().iter().map(|[position, _]| position.as_dvec3()));
         let shadows = Shadows::new(device, Settings { cap: 1024, ..Settings::default() })?;
-        let source = [&shadow_wgsl(1), include_str!("integrate.wgsl")].concat();
+        let source = [&shadow_wgsl(1), include_str!("minimal.wgsl")].concat();
         let depth_only = mesh.pipeline(device, &source, None, false);
         let caster = mesh.pipeline(device, &source, None, shadows.unclipped_depth());
         let shading = mesh.pipeline(device, &source, Some(shadows.bind_group_layout()), false);

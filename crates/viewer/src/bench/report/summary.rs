@@ -13,13 +13,19 @@ pub fn summary(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
     let texels = span(pairs.iter().map(Pair::fewer_texels), 0, 1);
     let times = span(pairs.iter().filter_map(Pair::time_ratio), 2, 2);
     let errors = span(pairs.iter().filter_map(Pair::error_ratio), 2, 2);
+    let capped = match pairs.iter().filter(|pair| pair.adaptive.is_capped()).count() {
+        0 => String::new(),
+        count => {
+            format!(" In {count} of {} cases the map is at its cap: narrow soft shadows are widened.", pairs.len())
+        }
+    };
     let size = pairs.first().map_or_else(String::new, |pair| pair.fixed.key.size.clone());
     let _ = write!(
         html,
         "<div><h3>What you win</h3><p><b>{texels}</b> times fewer texels than a fixed map of {size}, and a shadow that \
          takes <b>{times}</b> of its time.</p></div>\
          <div><h3>What you lose</h3><p>The error in the penumbra is <b>{errors}</b> of the fixed map's: the texels are as \
-         large as the filter hides, no smaller.</p></div>"
+         large as the filter hides, no smaller.{capped}</p></div>"
     );
     let failing: Vec<String> = verdict(Verdict::DoesNotPay).map(name).collect();
     let paying = verdict(Verdict::Pays).count();
