@@ -5,8 +5,8 @@
 //!
 //! 1. [`fit`] limits the light's view to what the observer sees: [`Fit`], with its extent L in x and y. [`cascades`] makes
 //!    one for each of the slices into which [`Splits`] cuts the view; all that follows is done for each.
-//! 2. The screen's demand is its smallest filter radius r, [`Demand`]: the filter's own radius for percentage closer
-//!    filtering, measured from the last map for soft shadows.
+//! 2. The screen's demand is its smallest filter radius r, [`Demand`], or a low quantile, [`Statistic`]: the filter's own
+//!    radius for percentage closer filtering, measured from the last map for soft shadows.
 //! 3. [`Relation`] turns that into texels of r / c, and N = c L / r of them, x and y apart.
 //! 4. [`TexelPolicy`] makes that a texel which changes rarely, within the caps; [`Fit::on_lattice`] takes the box to whole
 //!    texels of a lattice that stands still in the world; [`Size`] says what is achieved.
@@ -61,6 +61,7 @@ mod relation;
 mod relation_file;
 mod settings;
 mod split;
+mod statistic;
 
 pub use aabb::Aabb;
 pub use bias::{Bias, ReceiverPlane};
@@ -80,3 +81,4 @@ pub use relation_file::{
 };
 pub use settings::{Filter, Settings, pixel_footprint_world};
 pub use split::Splits;
+pub use statistic::{RadiusHistogram, Statistic};

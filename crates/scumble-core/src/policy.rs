@@ -1,6 +1,6 @@
 //! From a demand to a texel that a map can keep, frame by frame.
 //!
-//! Demand: the smallest radius r on screen, at the reference plane; it asks for texels of `a = r / c`. A map's texel is a
+//! Demand: the radius r that [`Statistic`](crate::Statistic) picks of those on screen, at the reference plane; it asks for texels of `a = r / c`. A map's texel is a
 //! rung of a ladder of a quarter octave, `2^(-k/4)` metres, on average 1.19 times as many texels as were asked for, where
 //! powers of two give 2.16. The ladder is of texels and not of sizes: while the rung stays, so does the lattice of
 //! texels in the world ([`Fit::on_lattice`](crate::Fit::on_lattice)), and a camera that moves changes only how much of it
@@ -27,7 +27,7 @@ const ROOM: f64 = 0.1;
 /// What the screen asks of a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Demand {
-    /// The smallest filter radius on screen, in metres at the reference plane; see
+    /// The filter radius on screen that decides, in metres at the reference plane; see
     /// [`Settings::demand_radius_world`](crate::Settings::demand_radius_world).
     Radius(f64),
     /// No penumbra on screen: the size stays, or is the smallest when there is none yet.

@@ -7,6 +7,7 @@ use crate::bias::Bias;
 use crate::error::{Error, check, not_negative, positive};
 use crate::moments::VarianceBound;
 use crate::relation::Relation;
+use crate::statistic::Statistic;
 
 /// How visibility is filtered.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -66,6 +67,8 @@ impl Filter {
 pub struct Settings {
     /// The relation between radius and texel.
     pub relation: Relation,
+    /// Which of the radii on screen the relation is asked with.
+    pub statistic: Statistic,
     /// Most texels per side; maps are allocated once at this size.
     pub cap: u32,
     /// Least texels per side.
@@ -93,6 +96,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             relation: Relation::published(),
+            statistic: Statistic::default(),
             cap: 4096,
             floor: 8,
             texel_floor_world: 0.0,
@@ -124,6 +128,7 @@ impl Settings {
         not_negative("radius_min_world", self.radius_min_world)?;
         check("shrink_below", self.shrink_below, (0.0..1.0).contains(&self.shrink_below), "a share from 0 to below 1")?;
         check("shrink_rungs", f64::from(self.shrink_rungs), self.shrink_rungs > 0, "1 or more")?;
+        self.statistic.checked()?;
         self.bias.checked()?;
         self.variance.checked()?;
         Ok(self.clone())
@@ -178,6 +183,7 @@ mod tests {
             (Settings { radius_min_world: f64::INFINITY, ..good() }, "radius_min_world"),
             (Settings { shrink_below: 1.0, ..good() }, "shrink_below"),
             (Settings { shrink_rungs: 0, ..good() }, "shrink_rungs"),
+            (Settings { statistic: Statistic::Quantile(1.0), ..good() }, "the share of Statistic::Quantile"),
         ];
         for (settings, name) in wrong {
             assert!(settings.checked().unwrap_err().to_string().starts_with(name), "{name}");

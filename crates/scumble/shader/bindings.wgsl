@@ -56,7 +56,9 @@ struct ShadowMap {
     bleeding_cut: f32,
     // Texels of a block of `shadow_moments` along x and y.
     moment_block: vec2f,
-    padding: vec2u,
+    // First bin of the histogram of radii that the demand pass makes.
+    first_bin: u32,
+    padding: u32,
 }
 
 // The maps of a light: consecutive, one for each slice of the view from the nearest on.

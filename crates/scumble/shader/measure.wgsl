@@ -1,10 +1,10 @@
-// The demand pass: the smallest filter radius on screen, by map (Kreuzer 2017, Eq. 5.12 as a minimum of radii).
+// The demand pass: the filter radii on screen, by map: their minimum (Kreuzer 2017, Eq. 5.12) and their histogram.
 //
 // One invocation a pixel and light over the depth prepass, which asks the map that shading reads there. A fragment counts
 // where its visibility is partial and at least two samples found a blocker. Its radius is clamped below by
 // `radius_floor_world` and by what one pixel can show, `radius_per_footprint` times the pixel's footprint at the reference
-// plane. Bits of positive floats keep their order, so the minimum is an atomic minimum of u32; 0x7F800000, infinity, says
-// that nothing was written.
+// plane. Bits of positive floats keep their order, so the minimum is an atomic minimum of u32, where 0x7F800000, infinity,
+// says that nothing was written; without the lowest 20 they are the bins of the histogram, 8 an octave.
 
 struct Measure {
     eye: vec3f,
@@ -20,7 +20,16 @@ struct Measure {
     pixel_at_unit_distance: f32,
 }
 
+struct MapDemand {
+    minimum_bits: atomic<u32>,
+    counts: array<atomic<u32>, MEASURE_BINS>,
+}
+
 const MEASURE_NOTHING: u32 = 0x7F800000u;
+const MEASURE_BINS: u32 = 128u;
+// Bits of a radius that no bin tells apart.
+const MEASURE_BIN_SHIFT: u32 = 20u;
+const MEASURE_GROUP: u32 = 64u;
 
 // Change of slope from pixel to pixel that still counts as one surface, as a share of the slope, and as depth: a few
 // units in the last place of 24 or 32 bits.
@@ -31,12 +40,13 @@ const NO_PLANE: f32 = 1e30;
 
 @group(1) @binding(0) var<uniform> measure: Measure;
 @group(1) @binding(1) var prepass: texture_depth_2d;
-@group(1) @binding(2) var<storage, read_write> demand: array<atomic<u32>, SHADOW_MAPS_MAX>;
+@group(1) @binding(2) var<storage, read_write> demand: array<MapDemand, SHADOW_MAPS_MAX>;
 // What each measured pixel is, SHADOW_BLOCK_..., a layer a light.
 @group(1) @binding(3) var corners: texture_storage_2d_array<r32uint, write>;
 
-// By slice of the light.
-var<workgroup> smallest: array<atomic<u32>, SHADOW_CASCADES_MAX>;
+// By slice of the light; the bins of all slices one after the other.
+var<workgroup> group_minimum: array<atomic<u32>, SHADOW_CASCADES_MAX>;
+var<workgroup> group_counts: array<atomic<u32>, SHADOW_CASCADES_MAX * MEASURE_BINS>;
 
 fn ray_at(pixel: vec2f) -> vec3f {
     return measure.ray_corner + pixel.x * measure.ray_x + pixel.y * measure.ray_y;
@@ -144,29 +154,49 @@ fn found_at(light: u32, pixel: vec2i, size: vec2i) -> Found {
     return Found(min(bitcast<u32>(radius), MEASURE_NOTHING), SHADOW_BLOCK_MIXED, map);
 }
 
+// CPU twin: `scumble_core::RadiusHistogram::bin_of`.
+fn bin_of(map: u32, radius_bits: u32) -> u32 {
+    let bin = radius_bits >> MEASURE_BIN_SHIFT;
+    let first = shadow_lights.maps[map].first_bin;
+    return min(max(bin, first) - first, MEASURE_BINS - 1u);
+}
+
 @compute @workgroup_size(8, 8)
 fn measure_demand(
     @builtin(global_invocation_id) invocation: vec3u,
     @builtin(local_invocation_index) index: u32,
 ) {
     let light = invocation.z;
+    let first_map = shadow_lights.lights[light].first_map;
+    let map_count = shadow_lights.lights[light].map_count;
     let size = vec2i(textureDimensions(prepass));
-    if index < SHADOW_CASCADES_MAX {
-        atomicStore(&smallest[index], MEASURE_NOTHING);
+    if index < map_count {
+        atomicStore(&group_minimum[index], MEASURE_NOTHING);
+    }
+    for (var bin = index; bin < map_count * MEASURE_BINS; bin += MEASURE_GROUP) {
+        atomicStore(&group_counts[bin], 0u);
     }
     workgroupBarrier();
     if all(invocation.xy < textureDimensions(corners)) {
         let found = found_at(light, min(vec2i(invocation.xy * measure.stride), size - 1), size);
         textureStore(corners, invocation.xy, light, vec4u(found.block, 0u, 0u, 0u));
         if found.radius_bits < MEASURE_NOTHING {
-            atomicMin(&smallest[found.map - shadow_lights.lights[light].first_map], found.radius_bits);
+            let slice = found.map - first_map;
+            atomicMin(&group_minimum[slice], found.radius_bits);
+            atomicAdd(&group_counts[slice * MEASURE_BINS + bin_of(found.map, found.radius_bits)], 1u);
         }
     }
     workgroupBarrier();
-    if index < shadow_lights.lights[light].map_count {
-        let group_smallest = atomicLoad(&smallest[index]);
-        if group_smallest < MEASURE_NOTHING {
-            atomicMin(&demand[shadow_lights.lights[light].first_map + index], group_smallest);
+    if index < map_count {
+        let minimum = atomicLoad(&group_minimum[index]);
+        if minimum < MEASURE_NOTHING {
+            atomicMin(&demand[first_map + index].minimum_bits, minimum);
+        }
+    }
+    for (var bin = index; bin < map_count * MEASURE_BINS; bin += MEASURE_GROUP) {
+        let count = atomicLoad(&group_counts[bin]);
+        if count > 0u {
+            atomicAdd(&demand[first_map + bin / MEASURE_BINS].counts[bin % MEASURE_BINS], count);
         }
     }
 }

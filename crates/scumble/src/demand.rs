@@ -3,7 +3,36 @@
 //! Without a measurement it is the radius itself (PCF), the settings' smallest radius (PCSS), 0 (one tap), so a PCSS map
 //! starts at the cap unless `radius_min_world` or `texel_floor_world` bound it.
 
-use scumble_core::{Demand, Filter, Fit, Light, Settings};
+use scumble_core::{Demand, Filter, Fit, Light, RadiusHistogram, Settings, Statistic};
+
+use crate::uniforms::MapDemand;
+
+/// How to read what is found under a map when it comes back and the fit is another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    scale: f64,
+    first_bin: u32,
+}
+
+impl Reading {
+    /// Of a map that is measured.
+    pub fn of(fit: &Fit) -> Self {
+        Self { scale: measure_scale(fit), first_bin: first_bin(fit) }
+    }
+
+    /// The radius that counts, in the sense of [`MapState::measured`](crate::plan::MapState).
+    pub fn radius_per_scale(&self, found: &MapDemand, statistic: Statistic) -> Option<f64> {
+        match statistic.demand(found.minimum_bits, &RadiusHistogram::new(self.first_bin, &found.counts)) {
+            Demand::Radius(radius_world) => Some(radius_world / self.scale),
+            Demand::Nothing => None,
+        }
+    }
+}
+
+/// First bin of the histogram of the radii under a map.
+pub fn first_bin(fit: &Fit) -> u32 {
+    RadiusHistogram::first_bin(fit.extent_world.max_element())
+}
 
 /// What is asked of a map of this fit, of which `measured` is in the sense of [`MapState`](crate::plan::MapState).
 pub fn demand(settings: &Settings, filter: &Filter, fit: &Fit, measured: Option<Option<f64>>) -> Demand {

@@ -7,8 +7,8 @@
 //! 3. [`Shadows::upload`] tells the shaders.
 //! 4. [`Shadows::begin`] gives a depth-only pass for each view; the caller draws its casters. [`Shadows::prefilter`] then
 //!    makes the moments of a variance shadow map; with other filters it does nothing.
-//! 5. [`Shadows::measure`], optional, looks at a depth prepass and finds the smallest radius on screen (Kreuzer 2017,
-//!    Eq. 5.12), and where everything is lit or dark: there the shading needs one lookup and no filter.
+//! 5. [`Shadows::measure`], optional, looks at a depth prepass and finds the radii on screen, of which the smallest
+//!    (Kreuzer 2017, Eq. 5.12) or a [`Statistic`] sizes the map, and where everything is lit or dark: there the shading needs one lookup and no filter.
 //! 6. The caller shades: [`shadow_wgsl`] before its shader, [`Shadows::bind_group`] bound, `shadow_visibility` called.
 //!
 //! ```no_run
@@ -54,7 +54,7 @@ pub use error::Error;
 pub use measure::NOTHING as MEASURE_NOTHING;
 pub use options::{Options, SizeChoice};
 pub use plan::filter_constant;
-pub use scumble_core::{self, Aabb, Camera, Filter, Light, Settings, Splits};
+pub use scumble_core::{self, Aabb, Camera, Filter, Light, Settings, Splits, Statistic};
 pub use shaders::{
     CLASSIFY_WGSL, CLEAR_WGSL, FILTER_OVERRIDE, measure_wgsl, shadow_wgsl, vsm_box_wgsl, vsm_reduce_wgsl,
 };

@@ -1,16 +1,17 @@
-//! The demand pass on the GPU: smallest filter radius on screen by map, and its way back.
+//! The demand pass on the GPU: the filter radii on screen by map, and their way back.
 //!
-//! Steps of one call: the minimum is set to infinity, `shader/measure.wgsl` lowers it over the depth prepass, the
+//! Steps of one call: minima are set to infinity and counts to 0, `shader/measure.wgsl` goes over the depth prepass, the
 //! result is copied into the [readback ring](crate::readback). Nothing is submitted and nothing waits.
 
 use glam::DVec3;
-use scumble_core::{Camera, Demand, Settings};
+use scumble_core::{Camera, RadiusHistogram, Settings, Statistic};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use crate::blocks::{Blocks, ClassifyPass, corners_of, written_binding};
+use crate::demand::Reading;
 use crate::error::Error;
 use crate::readback::Ring;
-use crate::uniforms::{MAPS_MAX, MeasureUniform};
+use crate::uniforms::{MAPS_MAX, MapDemand, MeasureUniform};
 
 /// What the shader leaves where no fragment had a penumbra: the bits of infinity.
 pub const NOTHING: u32 = 0x7F80_0000;
@@ -32,12 +33,14 @@ pub struct Measure {
     classify: ClassifyPass,
     blocks: Option<Blocks>,
     bound: Option<(wgpu::TextureView, wgpu::BindGroup)>,
-    ring: Ring<Scale>,
+    ring: Ring<Readings>,
 }
 
-/// By map: the reference depth of a spot, 1 for a directional light, `None` where none is drawn. A radius over its
-/// scale does not depend on the fit at the time.
-pub type Scale = [Option<f64>; MAPS_MAX as usize];
+/// By map; `None` where none is drawn.
+pub type Readings = [Option<Reading>; MAPS_MAX as usize];
+
+/// Where nothing was found yet.
+const START: MapDemand = MapDemand { minimum_bits: NOTHING, counts: [0; RadiusHistogram::BINS as usize] };
 
 /// What one measurement is about.
 pub struct Request<'a> {
@@ -51,8 +54,8 @@ pub struct Request<'a> {
     pub stride: u32,
     /// Lights in the uniforms.
     pub light_count: u32,
-    /// Scales of their maps.
-    pub scale: Scale,
+    /// Of their maps.
+    pub readings: Readings,
 }
 
 /// What a recorded measurement did.
@@ -73,14 +76,14 @@ impl Measure {
             return Err(Error::NoCompute { needed: STORAGE_BUFFERS, found });
         }
         let layout = bind_group_layout(device);
-        let demand_bytes = u64::from(MAPS_MAX) * 4;
+        let demand_bytes = u64::from(MAPS_MAX) * size_of::<MapDemand>() as u64;
         let buffer = |label, size, usage| {
             let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
             device.create_buffer(&descriptor)
         };
         let nothing = device.create_buffer_init(&BufferInitDescriptor {
             label: Some("scumble demand start"),
-            contents: bytemuck::cast_slice(&[NOTHING; MAPS_MAX as usize]),
+            contents: bytemuck::cast_slice(&[START; MAPS_MAX as usize]),
             usage: wgpu::BufferUsages::COPY_SRC,
         });
         Ok(Self {
@@ -143,7 +146,7 @@ impl Measure {
         if let Some(blocks) = &self.blocks {
             self.classify.record(encoder, blocks, request.light_count);
         }
-        let copied = self.ring.record(encoder, &self.demand, request.scale);
+        let copied = self.ring.record(encoder, &self.demand, request.readings);
         let allocations = u64::from(rebound) + u64::from(new_blocks) * Blocks::ALLOCATIONS;
         Ok(Recorded { allocations, new_blocks, copied })
     }
@@ -165,15 +168,12 @@ impl Measure {
 
     /// The newest result that has come back, by map, in the sense of
     /// [`MapState::measured`](crate::plan::MapState).
-    pub fn take(&mut self) -> Option<Vec<Option<Option<f64>>>> {
-        let (bytes, scale) = self.ring.take()?;
-        let bits: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
-        Some(
-            bits.iter()
-                .zip(scale)
-                .map(|(&bits, scale)| scale.map(|scale| radius_from_bits(bits).map(|radius| radius / scale)))
-                .collect(),
-        )
+    pub fn take(&mut self, statistic: Statistic) -> Option<Vec<Option<Option<f64>>>> {
+        let (bytes, readings) = self.ring.take()?;
+        let found: Vec<MapDemand> = bytemuck::pod_collect_to_vec(&bytes);
+        let radius =
+            |(found, reading): (&MapDemand, Option<Reading>)| Some(reading?.radius_per_scale(found, statistic));
+        Some(found.iter().zip(readings).map(radius).collect())
     }
 
     /// The bind group of the prepass, and whether it had to be created.
@@ -199,14 +199,6 @@ impl Measure {
         });
         self.bound = Some((prepass.clone(), group.clone()));
         (group, true)
-    }
-}
-
-/// The radius behind the bits of a minimum; `None` where nothing was written.
-fn radius_from_bits(bits: u32) -> Option<f64> {
-    match Demand::from_minimum_bits(bits) {
-        Demand::Radius(radius_world) => Some(radius_world),
-        Demand::Nothing => None,
     }
 }
 

@@ -11,7 +11,7 @@ use scumble_core::{
     filter, size_achieved, slices_of,
 };
 
-use crate::demand::{demand, lent};
+use crate::demand::{demand, first_bin, lent};
 use crate::error::Error;
 use crate::moments::blocks_of;
 use crate::options::{Options, SizeChoice};
@@ -208,7 +208,8 @@ fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUnifor
         deviation_min_texels: settings.variance.deviation_min_texels as f32,
         bleeding_cut: settings.variance.bleeding_cut as f32,
         moment_block: blocks_of(texel_world, radius_world).map(|texels| texels as f32),
-        padding: [0; 2],
+        first_bin: first_bin(fit),
+        padding: 0,
     }
 }
 

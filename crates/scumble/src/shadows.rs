@@ -4,10 +4,10 @@ use scumble_core::{Aabb, Camera, Filter, Light, Settings, TexelPolicy};
 
 use crate::bindings::Bindings;
 use crate::counters::Counters;
-use crate::demand::measure_scale;
+use crate::demand::{Reading, measure_scale};
 use crate::error::Error;
 use crate::maps::{MAP_FORMAT, Maps, depth_state};
-use crate::measure::{Measure, Request, Scale};
+use crate::measure::{Measure, Readings, Request};
 use crate::moments::{Moments, Task};
 use crate::options::Options;
 use crate::plan::{MapState, plan};
@@ -33,7 +33,7 @@ pub struct Shadows {
 #[derive(Debug)]
 struct Uploaded {
     lights: u32,
-    scale: Scale,
+    readings: Readings,
     moments: Vec<Task>,
 }
 
@@ -79,7 +79,7 @@ impl Shadows {
             moments,
             bindings,
             measure: None,
-            uploaded: Uploaded { lights: 0, scale: [None; MAPS_MAX as usize], moments: Vec::new() },
+            uploaded: Uploaded { lights: 0, readings: [None; MAPS_MAX as usize], moments: Vec::new() },
             counters,
         })
     }
@@ -137,11 +137,11 @@ impl Shadows {
         }
         self.uploaded = Uploaded {
             lights: plan.views.iter().map(|view| view.light + 1).max().unwrap_or(0),
-            scale: [None; MAPS_MAX as usize],
+            readings: [None; MAPS_MAX as usize],
             moments: Vec::new(),
         };
         for view in &plan.views {
-            self.uploaded.scale[view.layer as usize] = Some(measure_scale(&view.fit));
+            self.uploaded.readings[view.layer as usize] = Some(Reading::of(&view.fit));
         }
         if let (Some(moments), Filter::Vsm { radius_world }) = (&self.moments, self.options.filter) {
             self.uploaded.moments = plan.views.iter().map(|view| Task::new(view, radius_world)).collect();
@@ -218,8 +218,8 @@ impl Shadows {
         self.maps.texture()
     }
 
-    /// Records the demand pass: the smallest filter radius that the pixels of a depth prepass need, by map, with the
-    /// maps and matrices uploaded last. The result comes back frames later; see [`Shadows::read_demand`]. One call a
+    /// Records the demand pass: the filter radii that the pixels of a depth prepass need, by map, with the maps and
+    /// matrices uploaded last; which of them counts is the settings' [`Statistic`](scumble_core::Statistic). The result comes back frames later; see [`Shadows::read_demand`]. One call a
     /// submission.
     ///
     /// Call it after the maps are drawn and before shading: until the next `upload`, `shadow_visibility` then takes its
@@ -256,7 +256,7 @@ impl Shadows {
             settings: &self.settings,
             stride: self.options.measure_stride,
             light_count: self.uploaded.lights,
-            scale: self.uploaded.scale,
+            readings: self.uploaded.readings,
         };
         let recorded = measure.record(&self.device, queue, encoder, self.bindings.group(), prepass, &request)?;
         self.counters.measure_passes += 1;
@@ -275,7 +275,7 @@ impl Shadows {
     /// Takes the newest measurement that has come back, for the plans from here on; never waits. Results arrive while
     /// the caller submits or polls the device. Returns whether there was one. Until the first, sizes come from bounds.
     pub fn read_demand(&mut self) -> bool {
-        let Some(radii) = self.measure.as_mut().and_then(Measure::take) else { return false };
+        let Some(radii) = self.measure.as_mut().and_then(|it| it.take(self.settings.statistic)) else { return false };
         for (state, radius) in self.states.iter_mut().zip(radii) {
             state.measured = radius;
         }

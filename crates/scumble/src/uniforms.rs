@@ -3,7 +3,7 @@
 //! Field order, offsets and constants are those of the shaders; `tests/shaders.rs` compares them with naga's layouts.
 
 use bytemuck::{Pod, Zeroable};
-use scumble_core::{Splits, Taps};
+use scumble_core::{RadiusHistogram, Splits, Taps};
 
 /// Lights that one set of uniforms holds; `SHADOW_LIGHTS_MAX` of the shaders.
 pub const LIGHTS_MAX: u32 = 4;
@@ -64,8 +64,10 @@ pub struct MapUniform {
     pub bleeding_cut: f32,
     /// Texels of a block of VSM along x and y.
     pub moment_block: [f32; 2],
+    /// First bin of the histogram of radii; [`RadiusHistogram::first_bin`] of the map's extent.
+    pub first_bin: u32,
     /// Unused.
-    pub padding: [u32; 2],
+    pub padding: u32,
 }
 
 /// One map as the passes of variance shadow maps see it; `Moments` of `shader/vsm_map.wgsl`.
@@ -138,6 +140,16 @@ fn pack(vectors: &mut [[f32; 4]], points: &[glam::DVec2]) {
     for (place, point) in vectors.iter_mut().flat_map(|v| v.chunks_exact_mut(2)).zip(points) {
         place.copy_from_slice(&point.as_vec2().to_array());
     }
+}
+
+/// What the demand pass finds under one map; `MapDemand` of `shader/measure.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct MapDemand {
+    /// Bits of the smallest radius; those of infinity where there is none.
+    pub minimum_bits: u32,
+    /// Measured fragments with a penumbra, by the bits of their radius.
+    pub counts: [u32; RadiusHistogram::BINS as usize],
 }
 
 /// The camera of the demand pass. Rays: `eye + view_depth * (ray_corner + x ray_x + y ray_y)` in pixels.

@@ -8,7 +8,7 @@ use common::gpu;
 use common::rig::{Point, Rig, camera_above, fixed, sun_above};
 use glam::{DVec3, Vec3};
 use scumble::scumble_core::half_plane_under_disc;
-use scumble::{Camera, Error, Filter, Light, Options, Settings, SizeChoice, Splits, View};
+use scumble::{Camera, Error, Filter, Light, Options, Settings, SizeChoice, Splits, Statistic, View};
 
 fn settings(cap: u32) -> Settings {
     Settings { cap, ..Settings::default() }
@@ -249,4 +249,20 @@ fn a_view_straight_down_on_flat_ground_has_usable_maps() {
     assert!(plan.views().iter().all(|view| view.clip_from_world.is_finite() && view.texels() > 0));
     rig.shadows.set_options(cascaded(Options { size: SizeChoice::Fixed([32; 2]), ..Options::default() }, 2)).unwrap();
     assert!(rig.draw(&[sun_above(0.2)]).texels() > 0);
+}
+
+#[test]
+fn every_map_of_a_light_has_its_own_histogram() {
+    let half_angle = 0.1_f64;
+    let settings = Settings { footprint_kappa: 0.0, statistic: Statistic::Quantile(0.05), ..settings(1024) };
+    let mut rig = rig(settings, cascaded(Options { measure_stride: 1, ..Options::default() }, 3), &awning());
+    let plan = rig.draw_and_measure(&[sun_above(half_angle)], 192);
+    let radii: Vec<f64> =
+        plan.views().iter().map(|view| rig.shadows.measured_radius_world(view).unwrap().expect("a penumbra")).collect();
+    assert_eq!(radii.len(), 3);
+    // The awning is 2 m above the street everywhere.
+    let expected = 2.0 * half_angle.tan();
+    for radius in radii {
+        assert!(radius > 0.85 * expected && radius < 1.02 * expected, "{radius} for {expected}");
+    }
 }

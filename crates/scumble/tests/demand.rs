@@ -6,7 +6,7 @@ use common::casters::{cuboid, quad};
 use common::rig::{Rig, camera_above, fixed, ground_and, slab, sun_above};
 use glam::{DVec3, Vec3};
 use scumble::scumble_core::Bias;
-use scumble::{Camera, Filter, Light, Options, Settings, SizeChoice};
+use scumble::{Camera, Filter, Light, Options, Settings, SizeChoice, Statistic};
 
 fn settings(cap: u32) -> Settings {
     Settings { cap, ..Settings::default() }
@@ -54,6 +54,27 @@ fn the_lower_of_two_slabs_decides() {
     let expected = 1.0 * f64::tan(0.2);
     let radius = measured(&mut rig, &[sun_above(0.2)], 192).unwrap().expect("there is a penumbra");
     assert!((radius / expected - 1.0).abs() < 5e-3, "{radius} for {expected}");
+}
+
+#[test]
+fn a_quantile_passes_over_the_share_of_the_penumbra_that_may_show_texels() {
+    // A small slab near the ground, and a large one twice as high, whose penumbra is longer and wider.
+    let mut casters = cuboid(Vec3::new(-2.5, 0.9, -2.5), Vec3::new(-2.2, 1.0, -2.2));
+    casters.extend(cuboid(Vec3::new(0.0, 1.9, 0.0), Vec3::new(2.5, 2.0, 2.5)));
+    let (low, high) = (f64::tan(0.2), 2.0 * f64::tan(0.2));
+    for (statistic, expected) in [
+        (Statistic::Minimum, low),
+        (Statistic::Quantile(0.0), low),
+        (Statistic::Quantile(0.2), high),
+        (Statistic::Quantile(0.8), high),
+    ] {
+        let settings = Settings { statistic, ..without_footprint(512) };
+        let mut rig = Rig::new(settings, fixed(Filter::Pcss, 512), &ground_and(casters.clone()));
+        rig.camera = Camera { eye: DVec3::new(0.0, 9.0, 9.0), ..camera_above(DVec3::ZERO) };
+        let radius = measured(&mut rig, &[sun_above(0.2)], 192).unwrap().expect("there is a penumbra");
+        // The edge of a bin is at most a ninth below.
+        assert!(radius > expected * 8.0 / 9.0 * 0.995 && radius < expected * 1.005, "{statistic:?}: {radius}");
+    }
 }
 
 #[test]

@@ -126,7 +126,9 @@ macro_rules! assert_same_layout {
 
 #[test]
 fn structs_have_the_same_offsets_in_rust_and_wgsl() {
-    use scumble::uniforms::{LightUniform, LightsUniform, MapUniform, MeasureUniform, MomentsUniform, TapsUniform};
+    use scumble::uniforms::{
+        LightUniform, LightsUniform, MapDemand, MapUniform, MeasureUniform, MomentsUniform, TapsUniform,
+    };
     let passes = parse(&vsm_reduce_wgsl());
     assert_same_layout!(passes, "Moments", MomentsUniform, [viewport, block, radius, near_over_far, padding]);
     let module = parse(&measure_wgsl());
@@ -156,11 +158,13 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
             deviation_min_texels,
             bleeding_cut,
             moment_block,
+            first_bin,
             padding,
         ]
     );
     assert_same_layout!(module, "ShadowLight", LightUniform, [slice_ends, map_count, first_map]);
     assert_same_layout!(module, "ShadowLights", LightsUniform, [maps, lights, view_depth, block_px]);
+    assert_same_layout!(module, "MapDemand", MapDemand, [minimum_bits, counts]);
     assert_same_layout!(module, "ShadowTaps", TapsUniform, [pcf, blocker]);
     assert_same_layout!(
         module,
@@ -205,6 +209,7 @@ fn constants_are_the_same_in_rust_and_wgsl() {
     assert_eq!(constant(&module, "SHADOW_PCF_TAPS"), f64::from(PCF_TAPS));
     assert_eq!(constant(&module, "SHADOW_BLOCKER_TAPS"), f64::from(BLOCKER_TAPS));
     assert_eq!(constant(&module, "MEASURE_NOTHING"), f64::from(f32::INFINITY.to_bits()));
+    assert_eq!(constant(&module, "MEASURE_BINS"), f64::from(scumble_core::RadiusHistogram::BINS));
     let share = scumble::scumble_core::filter::SEARCH_SHARE as f32;
     assert_eq!(constant(&module, "SHADOW_SEARCH_SHARE"), f64::from(share));
     assert_eq!(scumble::MEASURE_NOTHING, f32::INFINITY.to_bits());

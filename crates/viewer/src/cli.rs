@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use scumble::Statistic;
 use scumble_reference::LightTruth;
 
 use crate::truth::LIGHT_SAMPLES;
@@ -60,7 +61,7 @@ pub struct Shot {
     /// How shadows are filtered
     #[arg(long, value_enum, default_value_t = Method::Pcss)]
     pub method: Method,
-    /// Texels of the shadow map: `adaptive`, N for N x N, or NxM; with `+blocks`, see bench
+    /// Texels of the shadow map: `adaptive`, N for N x N, or NxM; with `@0.01` or `+blocks`, see bench
     #[arg(long, default_value = "adaptive", value_name = "adaptive|N[xM]")]
     pub size: Size,
     /// Samples per pixel along x and along y
@@ -83,7 +84,8 @@ pub struct Bench {
     /// How soft, separated by commas: times the radius of pcf and vsm and the size of the light for pcss
     #[arg(long, value_delimiter = ',', default_value = "1", value_name = "F,F", value_parser = positive)]
     pub softness: Vec<f64>,
-    /// Sizes, separated by commas: `adaptive`, N or NxM. N+blocks is a fixed size with the pass of an adaptive one that
+    /// Sizes, separated by commas: `adaptive`, N or NxM. adaptive@0.01 lets 1 % of the pixels in penumbrae show texels, the
+    /// narrowest; adaptive lets none. N+blocks is a fixed size with the pass of an adaptive one that
     /// tells where one lookup is enough, so that what it saves and what the size saves can be told apart
     #[arg(long, value_delimiter = ',', default_value = "2048,adaptive", value_name = "N,adaptive")]
     pub sizes: Vec<Size>,
@@ -267,10 +269,10 @@ impl Motion {
 }
 
 /// How large a shadow map is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Size {
-    /// As small as the relation allows.
-    Adaptive,
+    /// As small as the relation allows for the radius that a statistic picks.
+    Adaptive(Statistic),
     /// Texels across and down.
     Fixed([u32; 2]),
     /// Fixed, but with the demand pass of an adaptive map, which tells where one lookup is enough.
@@ -289,7 +291,7 @@ impl Size {
     /// Texels of a fixed size; 0 for an adaptive one, which has them from the screen.
     pub fn texels(&self) -> u64 {
         match self {
-            Self::Adaptive => 0,
+            Self::Adaptive(_) => 0,
             Self::Fixed([across, down]) | Self::Blocks([across, down]) => u64::from(*across) * u64::from(*down),
         }
     }
@@ -297,6 +299,10 @@ impl Size {
 
 /// Largest side of a fixed map; the device may allow less and says so.
 const SIDE_MAX: u32 = 16_384;
+/// The size that is chosen by the screen.
+const ADAPTIVE: &str = "adaptive";
+/// What stands before the share of the penumbra that may show texels.
+const SHARE: char = '@';
 /// How a fixed size with blocks ends.
 const BLOCKS: &str = "+blocks";
 /// Smallest side of a fixed map: the floor of adaptive ones.
@@ -306,8 +312,8 @@ impl FromStr for Size {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        if text == "adaptive" {
-            return Ok(Self::Adaptive);
+        if let Some(rest) = text.strip_prefix(ADAPTIVE) {
+            return statistic(rest).map(Self::Adaptive).ok_or_else(allowed);
         }
         let side = |part: &str| part.parse().ok().filter(|side| (SIDE_MIN..=SIDE_MAX).contains(side));
         let (sides, has_blocks) = match text.strip_suffix(BLOCKS) {
@@ -318,17 +324,32 @@ impl FromStr for Size {
         match (side(across), side(down)) {
             (Some(across), Some(down)) if has_blocks => Ok(Self::Blocks([across, down])),
             (Some(across), Some(down)) => Ok(Self::Fixed([across, down])),
-            _ => Err(format!(
-                "allowed are `adaptive`, N, NxM, N{BLOCKS} or NxM{BLOCKS} with sides of {SIDE_MIN} to {SIDE_MAX} texels"
-            )),
+            _ => Err(allowed()),
         }
     }
+}
+
+/// The statistic behind `adaptive`: none, or a share that may show texels.
+fn statistic(text: &str) -> Option<Statistic> {
+    if text.is_empty() {
+        return Some(Statistic::Minimum);
+    }
+    let share = text.strip_prefix(SHARE)?.parse().ok()?;
+    Statistic::Quantile(share).checked().ok()
+}
+
+fn allowed() -> String {
+    format!(
+        "allowed are {ADAPTIVE}, {ADAPTIVE}{SHARE}S with a share S from 0 to below 1, and N, NxM, N{BLOCKS} or NxM{BLOCKS} with \
+         sides of {SIDE_MIN} to {SIDE_MAX} texels"
+    )
 }
 
 impl std::fmt::Display for Size {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Adaptive => formatter.write_str("adaptive"),
+            Self::Adaptive(Statistic::Minimum) => formatter.write_str(ADAPTIVE),
+            Self::Adaptive(Statistic::Quantile(share)) => write!(formatter, "{ADAPTIVE}{SHARE}{share}"),
             Self::Fixed([across, down]) if across == down => write!(formatter, "{across}"),
             Self::Fixed([across, down]) => write!(formatter, "{across}x{down}"),
             Self::Blocks(sides) => write!(formatter, "{}{BLOCKS}", Self::Fixed(*sides)),
@@ -367,7 +388,7 @@ mod tests {
 
     #[test]
     fn sizes_are_read_as_they_are_written() {
-        for text in ["adaptive", "2048", "512x448", "2048+blocks", "512x448+blocks"] {
+        for text in ["adaptive", "adaptive@0.01", "2048", "512x448", "2048+blocks", "512x448+blocks"] {
             assert_eq!(text.parse::<Size>().map(|size| size.to_string()), Ok(text.to_owned()));
         }
     }
@@ -387,6 +408,9 @@ mod tests {
             "Adaptive",
             "+blocks",
             "adaptive+blocks",
+            "adaptive@1",
+            "adaptive@",
+            "adaptive0.01",
         ] {
             let refused = text.parse::<Size>().expect_err(text);
             assert!(refused.contains("8 to 16384"), "{refused}");

@@ -64,11 +64,16 @@ impl Variant {
         let Case { method, size, softness } = case;
         let filter = stage.setup.filter(method, softness);
         let device_limit = stage.gpu.device.limits().max_texture_dimension_2d;
-        let (cap, choice) = match size {
-            Size::Adaptive => (settings.cap.min(device_limit), SizeChoice::Adaptive),
-            Size::Fixed(texels) | Size::Blocks(texels) => (texels[0].max(texels[1]), SizeChoice::Fixed(texels)),
+        let (settings, choice) = match size {
+            Size::Adaptive(statistic) => {
+                let cap = settings.cap.min(device_limit);
+                (Settings { cap, statistic, ..settings }, SizeChoice::Adaptive)
+            }
+            Size::Fixed(texels) | Size::Blocks(texels) => {
+                let cap = texels[0].max(texels[1]);
+                (Settings { cap, ..settings }, SizeChoice::Fixed(texels))
+            }
         };
-        let settings = Settings { cap, ..settings };
         let options = Options {
             filter,
             size: choice,

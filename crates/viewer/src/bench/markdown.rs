@@ -56,7 +56,7 @@ fn ratios(pair: &Pair<'_>, record: &BenchRecord) -> String {
     format!(
         "| {} | {} | {} | {}{} | {:.1} | {} | {} | {} | {} | {} | {} | {} |\n",
         pair.adaptive.key.scene,
-        pair.adaptive.key.filter(),
+        pair.adaptive.key.filter_and_share(),
         pair.fixed.sizes_words(),
         pair.adaptive.sizes_words(),
         if pair.adaptive.is_capped() { " (cap)" } else { "" },

@@ -69,7 +69,7 @@ impl fmt::Display for Pair<'_> {
     /// One line for a terminal.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (key, fixed) = (&self.adaptive.key, &self.fixed.key.size);
-        write!(formatter, "{} {} adaptive against {fixed}: ", key.scene, key.filter())?;
+        write!(formatter, "{} {} {} against {fixed}: ", key.scene, key.filter(), key.size)?;
         write!(formatter, "{:.1} times fewer texels", self.fewer_texels())?;
         let ratios = [
             ("the time", self.time_ratio()),

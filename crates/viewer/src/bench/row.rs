@@ -5,6 +5,7 @@ use std::fmt;
 use std::path::Path;
 
 use anyhow::Result;
+use scumble::Statistic;
 use serde::{Deserialize, Serialize};
 
 use crate::bench::comparison::Comparison;
@@ -36,7 +37,7 @@ pub struct Key {
     pub method: String,
     /// Times the filter radius (pcf, vsm) or light size (pcss) of the run.
     pub softness: f64,
-    /// `adaptive`, N or NxM.
+    /// As the command line spells it.
     pub size: String,
 }
 
@@ -63,7 +64,15 @@ impl Key {
 
     /// Whether the size is chosen by the relation.
     pub fn is_adaptive(&self) -> bool {
-        self.size() == Some(Size::Adaptive)
+        matches!(self.size(), Some(Size::Adaptive(_)))
+    }
+
+    /// The filter, and the share of the penumbra that may show texels where it is one: `pcss`, `pcss x4 @0.01`.
+    pub fn filter_and_share(&self) -> String {
+        match self.size() {
+            Some(Size::Adaptive(Statistic::Quantile(share))) => format!("{} @{share}", self.filter()),
+            _ => self.filter(),
+        }
     }
 
     /// Whether the size is fixed and the filter runs at every pixel.

@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use indicatif::ProgressBar;
+use scumble::Statistic;
 use scumble_reference::{Rays, penumbra};
 
 use crate::bench::comparison::{Screen, Truths, compare};
@@ -56,8 +57,9 @@ fn is_done(options: &Bench, partial: &Partial, scene: &str, (method, softness): 
 /// The paths that a scene lacks, with the adaptive case that takes them.
 fn walks_left(options: &Bench, partial: &Partial, scene: &str) -> Vec<(Case, Motion)> {
     let soft = options.methods.iter().filter(|&&method| method != Method::None);
-    let cases = soft
-        .flat_map(|&method| options.softness.first().map(|&softness| Case { method, size: Size::Adaptive, softness }));
+    let cases = soft.flat_map(|&method| {
+        options.softness.first().map(|&softness| Case { method, size: Size::Adaptive(Statistic::default()), softness })
+    });
     let walks = cases.flat_map(|case| options.paths.iter().map(move |&motion| (case, motion)));
     walks.filter(|(case, motion)| !partial.has_walk(&Key::of(scene, case), motion.name())).collect()
 }
@@ -207,7 +209,7 @@ fn time(
 /// `adaptive`, `fixed` for the fixed size beside it, `fixed-512` for others.
 fn label(size: Size, sizes: &[Size]) -> String {
     match size {
-        Size::Adaptive => "adaptive".into(),
+        Size::Adaptive(_) => size.to_string(),
         _ if Some(size) == Size::beside(sizes) => "fixed".into(),
         _ => format!("fixed-{size}"),
     }
@@ -230,7 +232,7 @@ mod tests {
 
     #[test]
     fn the_largest_fixed_size_is_the_fixed_one() {
-        let sizes = [Size::Fixed([512, 512]), Size::Adaptive, Size::Fixed([1024, 2048])];
+        let sizes = [Size::Fixed([512, 512]), Size::Adaptive(Statistic::default()), Size::Fixed([1024, 2048])];
         assert_eq!(sizes.map(|size| label(size, &sizes)), ["fixed-512", "adaptive", "fixed"]);
     }
 

@@ -6,8 +6,8 @@
 //! end; the error goes on falling, without a person who sees it.
 
 use anyhow::Result;
-use scumble::Settings;
 use scumble::scumble_core::Relation;
+use scumble::{Settings, Statistic};
 use serde::{Deserialize, Serialize};
 
 use crate::bench::comparison::{Screen, Truths, compare};
@@ -61,7 +61,7 @@ pub fn sweep(
     let point = |ratio: f64| {
         let relation = Relation::exact(ratio)?;
         let settings = Settings { relation, ..still_settings(&stage.setup) };
-        let case = Case { method, size: Size::Adaptive, softness };
+        let case = Case { method, size: Size::Adaptive(Statistic::default()), softness };
         let mut variant = Variant::new(stage, receivers, case, settings)?;
         variant.settle(stage, receivers, &mut timer)?;
         let visibility = variant.read_visibility(stage)?;

@@ -48,7 +48,7 @@ fn figure(index: usize, pair: &Pair<'_>, out: &Path) -> Result<String> {
          <figcaption>RMS error in the penumbra: fixed {}, adaptive {}. Error maps: red too bright, blue too dark, full colour \
          at 0.25 of the light.</figcaption></figure>",
         key.scene,
-        key.filter(),
+        key.filter_and_share(),
         pair.fewer_texels(),
         errors(pair.fixed),
         errors(pair.adaptive),

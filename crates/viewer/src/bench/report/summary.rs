@@ -54,7 +54,7 @@ fn table(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
             html,
             "<tr><td>{}<td>{}<td>{}<td>{}<td>{:.1}<td>{}<td>{}<td>{}<td>{}<td>{}{}",
             pair.adaptive.key.scene,
-            pair.adaptive.key.filter(),
+            pair.adaptive.key.filter_and_share(),
             pair.fixed.sizes_words(),
             pair.adaptive.sizes_words(),
             pair.fewer_texels(),
@@ -91,7 +91,7 @@ fn cells(trade: &Trade) -> String {
 }
 
 fn name(trade: &Trade) -> String {
-    format!("{} {}", trade.key.scene, trade.key.filter())
+    format!("{} {}", trade.key.scene, trade.key.filter_and_share())
 }
 
 fn times(ratio: Option<f64>) -> String {
