@@ -37,8 +37,8 @@ pub fn markdown(record: &BenchRecord) -> String {
     }
     page += "\nAll ratios are adaptive over fixed. *Of it, size*: over a fixed map that skips filters as the adaptive one does. \
              *Frame rate*: with receivers and shading. The last two are over the curve of all fixed sizes.\n\n## All sizes\n\n\
-             | scene | filter | size | texels | million | depth, ms | demand, ms | evaluation, ms | total, ms | RMS, penumbra | 99 % | \
-             against the light | tilted edges | violation |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+             | scene | filter | size | texels | million | depth, ms | moments, ms | demand, ms | evaluation, ms | total, ms | RMS, penumbra | 99 % | \
+             against the light | tilted edges | violation |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for row in &record.rows {
         page += &line(row);
     }
@@ -81,7 +81,7 @@ fn line(row: &Row) -> String {
         if row.key.is_adaptive() && row.is_capped() { " (cap)" } else { "" },
         row.texels as f64 * 1e-6
     );
-    for part in ["depth", "demand", "evaluation", "total"] {
+    for part in ["depth", "moments", "demand", "evaluation", "total"] {
         let _ = match row.times_ms.get(part) {
             Some(Spread { median, lower_quartile, upper_quartile }) => {
                 write!(line, " {median:.1} ({lower_quartile:.1} to {upper_quartile:.1}) |")

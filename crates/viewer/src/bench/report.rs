@@ -129,8 +129,8 @@ fn legend(names: &[String]) -> String {
 
 fn numbers(rows: &[Row]) -> String {
     let mut html = String::from(
-        "<div class=wide><table><thead><tr><th>Scene<th>Filter<th>Size<th>Texels<th>Depth, ms<th>Demand, ms<th>Evaluation, ms\
-         <th>Total, ms<th>RMS, penumbra<th>99 %<th>Largest<th>Bias<th>RMS, lit sides<th>RMS, light<th>Tilted edges<th>Violation</thead><tbody>",
+        "<div class=wide><table><thead><tr><th>Scene<th>Filter<th>Size<th>Texels<th>Depth, ms<th>Moments, ms<th>Demand, ms\
+         <th>Evaluation, ms<th>Total, ms<th>RMS, penumbra<th>99 %<th>Largest<th>Bias<th>RMS, lit sides<th>RMS, light<th>Tilted edges<th>Violation</thead><tbody>",
     );
     for row in rows {
         let time = |part: &str| match row.times_ms.get(part) {
@@ -142,13 +142,14 @@ fn numbers(rows: &[Row]) -> String {
         let penumbra = &row.comparison.penumbra;
         let class = if row.key.is_adaptive() { "adaptive" } else { "" };
         html += &format!(
-            "<tr class='{class}'><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{:.4}<td>{:.3}<td>{:.2}<td>{:+.4}<td>{:.4}\
+            "<tr class='{class}'><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{:.4}<td>{:.3}<td>{:.2}<td>{:+.4}<td>{:.4}\
              <td>{}<td>{}<td>{}",
             escaped(&row.key.scene),
             row.key.filter(),
             row.sizes_words(),
             row.texels,
             time("depth"),
+            time("moments"),
             time("demand"),
             time("evaluation"),
             time("total"),
