@@ -18,7 +18,7 @@ const TEXEL_SHARE_MAX: f64 = 0.25;
 const ERROR_MAX: f64 = 0.1;
 
 /// The version of `bench.json` that is read here.
-const BENCH_SCHEMA: &str = "scumble/bench/3";
+const BENCH_SCHEMA: &str = "scumble/bench/4";
 
 /// The demonstration's numbers.
 pub struct Summary {

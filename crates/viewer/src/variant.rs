@@ -55,6 +55,7 @@ pub struct Variant {
     visibility: wgpu::Texture,
     bounds: Aabb,
     plan: Option<Plan>,
+    allocations_at_rest: u64,
 }
 
 impl Variant {
@@ -89,7 +90,7 @@ impl Variant {
         let evaluation = stage.pipelines.evaluation(Output::Visibility, &stage.gpu, layout, &shadows, &filter);
         let visibility = stage.visibility_texture(gbuffer);
         let bounds = stage.setup.scene.bounds();
-        Ok(Self { case, filter, shadows, casters, evaluation, visibility, bounds, plan: None })
+        Ok(Self { case, filter, shadows, casters, evaluation, visibility, bounds, plan: None, allocations_at_rest: 0 })
     }
 
     /// Renders frames until the size rests. A fixed size rests at once; what the screen asks of it is measured, so that
@@ -111,7 +112,13 @@ impl Variant {
                 break;
             }
         }
+        self.allocations_at_rest = self.counters().allocations;
         Ok(())
+    }
+
+    /// Objects of the device that frames have created since the size came to rest.
+    pub fn allocations_since_rest(&self) -> u64 {
+        self.counters().allocations - self.allocations_at_rest
     }
 
     /// The plan of the last frame.

@@ -52,7 +52,8 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         ),
         column(
             "size",
-            "`adaptive`, or the fixed side or sides in texels; with `+blocks` filters are skipped as by adaptive maps",
+            "`adaptive`, with `@` and the share of the penumbra that may show texels, or the fixed side or sides in texels; with \
+             `+blocks` filters are skipped as by adaptive maps",
             Box::new(|row| row.key.size.clone()),
         ),
         column("width_px", "pixels across", Box::new(move |_| width.to_string())),
@@ -66,8 +67,17 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         column("map_height", "texels down of the first map's part in use", Box::new(|row| viewport(row, 3))),
         column("texels", "texels in use, all maps together", Box::new(|row| row.texels.to_string())),
         column("bytes_used", "bytes of the texels in use", Box::new(|row| row.bytes_used.to_string())),
-        column("bytes_allocated", "bytes of the whole texture", Box::new(|row| row.bytes_allocated.to_string())),
-        column("passes", "depth, demand and evaluation passes of a frame", Box::new(|row| row.passes.to_string())),
+        column("bytes_allocated", "bytes of the whole textures", Box::new(|row| row.bytes_allocated.to_string())),
+        column(
+            "passes",
+            "depth, moment, demand and evaluation passes of a frame",
+            Box::new(|row| row.passes.to_string()),
+        ),
+        column(
+            "allocations",
+            "objects of the device that frames created after the size had come to rest",
+            Box::new(|row| row.allocations.to_string()),
+        ),
         column("taps_per_pixel", "map lookups of a pixel at most", Box::new(|row| row.taps_per_pixel.to_string())),
         column(
             "c_effective",

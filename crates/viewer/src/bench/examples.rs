@@ -22,6 +22,7 @@ pub fn row(scene: &str, method: &str, size: &str, total_ms: f64, error: f64) -> 
         bytes_used: 0,
         bytes_allocated: 0,
         passes: 2,
+        allocations: 0,
         taps_per_pixel: 25,
         times_ms: BTreeMap::from([("total".into(), total)]),
         comparison: Comparison {

@@ -15,7 +15,7 @@ use crate::cli::{Bench, Conditions};
 use crate::record::{MachineRecord, RatioRecord};
 
 /// What the record says it is.
-pub const SCHEMA: &str = "scumble/bench/3";
+pub const SCHEMA: &str = "scumble/bench/4";
 
 /// bench.json.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -137,6 +137,8 @@ pub struct Row {
     pub bytes_allocated: u64,
     /// Depth, moment, demand and evaluation passes of one frame.
     pub passes: u32,
+    /// Objects of the device that frames created after the size had come to rest.
+    pub allocations: u64,
     /// Map lookups of one pixel at most.
     pub taps_per_pixel: u32,
     /// Times on the device.
@@ -170,6 +172,7 @@ impl Row {
             maps,
             bytes_used: plan.texels() * TEXEL_BYTES + counters.moment_blocks * BLOCK_BYTES,
             bytes_allocated: counters.map_bytes,
+            allocations: variant.allocations_since_rest(),
             taps_per_pixel: counters.taps_per_pixel,
             times_ms,
             comparison,
