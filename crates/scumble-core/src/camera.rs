@@ -94,12 +94,26 @@ impl Camera {
         2.0 * (0.5 * self.vertical_fov).tan()
     }
 
+    /// Unit directions of view, to the right and up in the picture.
+    fn axes(&self) -> [DVec3; 3] {
+        let forward = self.forward();
+        let right = forward.cross(self.up).normalize();
+        [forward, right, right.cross(forward)]
+    }
+
+    /// Directions of the corners of the picture, one unit deep.
+    pub(crate) fn corner_rays(&self) -> [DVec3; 4] {
+        let [forward, right, up] = self.axes();
+        let half_height = 0.5 * self.height_at_unit_distance();
+        let side = half_height * self.aspect * right;
+        let top = half_height * up;
+        [forward - side - top, forward + side - top, forward - side + top, forward + side + top]
+    }
+
     /// The view volume V as an intersection of half spaces, about `origin`: near, left, right, bottom, top, and far
     /// unless it is infinite.
     pub(crate) fn half_spaces(&self, origin: DVec3) -> Vec<HalfSpace> {
-        let forward = self.forward();
-        let right = forward.cross(self.up).normalize();
-        let up = right.cross(forward);
+        let [forward, right, up] = self.axes();
         let eye = self.eye - origin;
         let half_height = 0.5 * self.height_at_unit_distance();
         let half_width = half_height * self.aspect;

@@ -7,6 +7,8 @@
 //!
 //! Only directional light is split. A spot's own perspective already gives more texels to what is near it.
 
+use glam::DVec3;
+
 use crate::aabb::Aabb;
 use crate::camera::Camera;
 use crate::error::Error;
@@ -18,7 +20,7 @@ use crate::split::Splits;
 /// Share of its depth by which the box of a slice reaches beyond both of its ends: a point that f32 puts on the wrong side
 /// of an end still has a place in the map. f32 errs by 6e-8 of a coordinate, so this is good for scenes 1,000 times as far
 /// from the shaders' origin as the end is from the eye.
-const OVERLAP: f64 = 1e-4;
+pub(crate) const OVERLAP: f64 = 1e-4;
 
 /// One slice of a light's view.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,8 +78,13 @@ fn depths_on_screen(camera: &Camera, scene: &Aabb) -> Option<(f64, f64)> {
     // About the scene's middle, as in `fit`.
     let origin = scene.center();
     let receivers = Polyhedron::from_corners(scene.corners().map(|p| p - origin)).clip_all(&camera.half_spaces(origin));
+    depths_of(&[receivers], camera, origin)
+}
+
+/// Smallest and largest view depth of bodies about `origin` that the camera sees; `None` of empty ones.
+pub(crate) fn depths_of(bodies: &[Polyhedron], camera: &Camera, origin: DVec3) -> Option<(f64, f64)> {
     let forward = camera.forward();
-    let depths = receivers.vertices().map(|p| forward.dot(p - (camera.eye - origin)));
+    let depths = bodies.iter().flat_map(Polyhedron::vertices).map(|p| forward.dot(p - (camera.eye - origin)));
     let (near, far) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), d| (lo.min(d), hi.max(d)));
     (near <= far).then(|| (near.max(camera.near), far))
 }

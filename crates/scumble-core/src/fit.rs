@@ -23,8 +23,8 @@ use crate::aabb::Aabb;
 use crate::camera::Camera;
 use crate::error::Error;
 use crate::light::Light;
-use crate::polyhedron::{HalfSpace, Polyhedron};
-use frame::Frame;
+use crate::polyhedron::Polyhedron;
+pub(crate) use frame::Frame;
 
 /// Part of the depth range added at both ends, so that rounding clips no caster.
 const DEPTH_MARGIN: f64 = 1e-4;
@@ -84,31 +84,53 @@ pub fn fit(camera: &Camera, scene: &Aabb, light: &Light, fitted: bool) -> Result
         return Ok(None);
     }
 
-    // The light's own square view plane, and the box in it.
-    let reference = near_lit;
-    let square = frame.square(&local, reference);
-    let (min, max) = if fitted { frame.bounds(&receivers, reference) } else { square };
-    let smallest = smallest_length(&scene);
+    let square = frame.square(&local, near_lit);
+    let plane = if fitted { frame.bounds(&receivers, near_lit) } else { square };
+    let far = if fitted { frame.depth_range(&receivers).1 } else { far_lit };
+    Ok(Some(around(&scene, &frame, square, plane, [near_lit, far])))
+}
+
+/// The fit of directional light to bodies in place of what a camera sees; `None` where all are empty. `light` and `scene`
+/// are checked, the bodies lie in the scene and are about its middle.
+pub(crate) fn fit_bodies(scene: &Aabb, light: Light, bodies: &[Polyhedron]) -> Option<Fit> {
+    let origin = scene.center();
+    let local = Polyhedron::from_corners(scene.corners().map(|p| p - origin));
+    let frame = Frame::new(light, origin);
+    let (_, near_lit, _) = frame.lit_part(&local)?;
+    let bodies: Vec<&Polyhedron> = bodies.iter().filter(|body| !body.is_empty()).collect();
+    let far = bodies.iter().map(|body| frame.depth_range(body).1).reduce(f64::max)?;
+    let boxes = bodies.iter().map(|body| frame.bounds(body, near_lit));
+    let plane = boxes.reduce(|(lo, hi), (min, max)| (lo.min(min), hi.max(max)))?;
+    Some(around(scene, &frame, frame.square(&local, near_lit), plane, [near_lit, far]))
+}
+
+/// The fit to a box on the reference plane, within the light's own square view plane there: depth from the first caster in
+/// the column to the last receiver.
+fn around(
+    scene: &Aabb,
+    frame: &Frame,
+    square: (DVec2, DVec2),
+    (min, max): (DVec2, DVec2),
+    [near_lit, far]: [f64; 2],
+) -> Fit {
+    let smallest = smallest_length(scene);
     let extent_world = (max - min).max(DVec2::splat(smallest));
     let side = (square.1 - square.0).max_element().max(smallest);
-
-    // The depth range: from the first caster in the column to the last receiver.
-    let far = if fitted { frame.depth_range(&receivers).1 } else { far_lit };
     let mut fit = Fit {
-        light,
+        light: frame.light,
         light_from_world: frame.light_from_world,
         extent_world,
         scale: side / extent_world,
         depth_near: near_lit,
         depth_far: far,
         center: min + 0.5 * (max - min),
-        scene,
+        scene: *scene,
     };
-    if let Light::Directional { .. } = light {
+    if let Light::Directional { .. } = frame.light {
         fit.depth_near = fit.first_caster().min(far);
     }
     fit.widen_depth(smallest.max(DEPTH_RANGE_OF_SIZE * scene.size().length()));
-    Ok(Some(fit))
+    fit
 }
 
 impl Fit {
@@ -272,15 +294,7 @@ impl Fit {
         let origin = self.scene.center();
         let frame = Frame::new(self.light, origin);
         let half = 0.5 * self.extent_world;
-        let side = |axis: DVec3, at: DVec2| {
-            HalfSpace::through(frame.local_from_light(at.extend(0.0)), frame.world_from_light(axis))
-        };
-        let column = [
-            side(DVec3::X, self.center - half),
-            side(DVec3::NEG_X, self.center + half),
-            side(DVec3::Y, self.center - half),
-            side(DVec3::NEG_Y, self.center + half),
-        ];
+        let column = frame.column(self.center - half, self.center + half);
         let casters = Polyhedron::from_corners(self.scene.corners().map(|p| p - origin)).clip_all(&column);
         frame.depth_range(&casters).0
     }

@@ -59,6 +59,7 @@ mod polyhedron;
 mod presets;
 mod relation;
 mod relation_file;
+mod seen;
 mod settings;
 mod split;
 mod statistic;
@@ -79,6 +80,7 @@ pub use relation_file::{
     ConditionEstimate, Estimate, FormTests, GoodnessOfFit, ModelParameters, NullTest, OtherEstimator, PopulationPoint,
     RelationFile, SCHEMA, SessionHash,
 };
+pub use seen::{Seen, SeenBand, SeenCascades, seen_cascades};
 pub use settings::{Filter, Settings, pixel_footprint_world};
 pub use split::Splits;
 pub use statistic::{RadiusHistogram, Statistic};

@@ -11,18 +11,18 @@ use crate::polyhedron::{HalfSpace, Polyhedron};
 const NEAR_SHARE: f64 = 0.01;
 
 /// Light space as seen from a local origin.
-pub(super) struct Frame {
-    light: Light,
+pub(crate) struct Frame {
+    pub(super) light: Light,
     origin: DVec3,
     /// World to light space.
-    pub(super) light_from_world: DMat4,
+    pub(crate) light_from_world: DMat4,
     /// The local origin in light space.
     origin_light: DVec3,
 }
 
 impl Frame {
     /// The light space of `light`, about `origin` in world space.
-    pub(super) fn new(light: Light, origin: DVec3) -> Self {
+    pub(crate) fn new(light: Light, origin: DVec3) -> Self {
         let light_from_world = light.light_from_world();
         Self { light, origin, light_from_world, origin_light: light_from_world.transform_point3(origin) }
     }
@@ -41,8 +41,16 @@ impl Frame {
         DMat3::from_mat4(self.light_from_world).transpose() * v
     }
 
+    /// All points that lie between two corners across a directional light.
+    pub(crate) fn column(&self, min: DVec2, max: DVec2) -> [HalfSpace; 4] {
+        let side = |axis: DVec3, at: DVec2| {
+            HalfSpace::through(self.local_from_light(at.extend(0.0)), self.world_from_light(axis))
+        };
+        [side(DVec3::X, min), side(DVec3::NEG_X, max), side(DVec3::Y, min), side(DVec3::NEG_Y, max)]
+    }
+
     /// Smallest and largest depth; infinite and negative infinite of an empty body.
-    pub(super) fn depth_range(&self, body: &Polyhedron) -> (f64, f64) {
+    pub(crate) fn depth_range(&self, body: &Polyhedron) -> (f64, f64) {
         let depths = body.vertices().map(|p| -self.light_from_local(p).z);
         depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), d| (lo.min(d), hi.max(d)))
     }
