@@ -59,6 +59,9 @@ struct ShadowMap {
     // First bin of the histogram of radii that the demand pass makes.
     first_bin: u32,
     padding: u32,
+    // Half of the box, in clip space, in which points are looked up here and not in the light's net.
+    inner: vec2f,
+    more_padding: vec2u,
 }
 
 // The maps of a light: consecutive, one for each slice of the view from the nearest on.
@@ -68,6 +71,11 @@ struct ShadowLight {
     // 0 where the plan has no such light.
     map_count: u32,
     first_map: u32,
+    // The map of what no slice's map was fitted to; SHADOW_NO_MAP where slices are fitted to the whole view.
+    net_map: u32,
+    // Directions of x and y of light space.
+    across_x: vec3f,
+    across_y: vec3f,
 }
 
 struct ShadowLights {

@@ -1,10 +1,13 @@
-// The demand pass: the filter radii on screen, by map: their minimum (Kreuzer 2017, Eq. 5.12) and their histogram.
+// The demand pass: the filter radii on screen, by map: their minimum (Kreuzer 2017, Eq. 5.12) and their histogram; and where
+// receivers are, by light.
 //
 // One invocation a pixel and light over the depth prepass, which asks the map that shading reads there. A fragment counts
 // where its visibility is partial and at least two samples found a blocker. Its radius is clamped below by
 // `radius_floor_world` and by what one pixel can show, `radius_per_footprint` times the pixel's footprint at the reference
 // plane. Bits of positive floats keep their order, so the minimum is an atomic minimum of u32, where 0x7F800000, infinity,
-// says that nothing was written; without the lowest 20 they are the bins of the histogram, 8 an octave.
+// says that nothing was written; without the lowest 20 they are the bins of the histogram, 8 an octave. Without the lowest
+// 22 the bits of a view depth are the bands by which receivers of a light with cascades are boxed, 2 an octave
+// (`scumble_core::Seen`).
 
 struct Measure {
     eye: vec3f,
@@ -25,10 +28,26 @@ struct MapDemand {
     counts: array<atomic<u32>, MEASURE_BINS>,
 }
 
+// Minima of x, y, -x and -y.
+struct LightReceivers {
+    minima: array<array<atomic<u32>, 4>, MEASURE_BANDS>,
+}
+
+struct Measured {
+    maps: array<MapDemand, SHADOW_MAPS_MAX>,
+    receivers: array<LightReceivers, SHADOW_LIGHTS_MAX>,
+}
+
 const MEASURE_NOTHING: u32 = 0x7F800000u;
 const MEASURE_BINS: u32 = 128u;
 // Bits of a radius that no bin tells apart.
 const MEASURE_BIN_SHIFT: u32 = 20u;
+const MEASURE_BANDS: u32 = 32u;
+// Bits of a view depth that no band tells apart, and what the rest is of the first band's, 1/16 m.
+const MEASURE_BAND_SHIFT: u32 = 22u;
+const MEASURE_BAND_FIRST: u32 = 246u;
+// Above the bits of every number, in order.
+const MEASURE_NOWHERE: u32 = 0xffffffffu;
 const MEASURE_GROUP: u32 = 64u;
 
 // Change of slope from pixel to pixel that still counts as one surface, as a share of the slope, and as depth: a few
@@ -40,13 +59,14 @@ const NO_PLANE: f32 = 1e30;
 
 @group(1) @binding(0) var<uniform> measure: Measure;
 @group(1) @binding(1) var prepass: texture_depth_2d;
-@group(1) @binding(2) var<storage, read_write> demand: array<MapDemand, SHADOW_MAPS_MAX>;
+@group(1) @binding(2) var<storage, read_write> measured: Measured;
 // What each measured pixel is, SHADOW_BLOCK_..., a layer a light.
 @group(1) @binding(3) var corners: texture_storage_2d_array<r32uint, write>;
 
-// By slice of the light; the bins of all slices one after the other.
+// By slice of the light; the bins of all slices one after the other; four minima a band.
 var<workgroup> group_minimum: array<atomic<u32>, SHADOW_CASCADES_MAX>;
 var<workgroup> group_counts: array<atomic<u32>, SHADOW_CASCADES_MAX * MEASURE_BINS>;
+var<workgroup> group_receivers: array<atomic<u32>, 4u * MEASURE_BANDS>;
 
 fn ray_at(pixel: vec2f) -> vec3f {
     return measure.ray_corner + pixel.x * measure.ray_x + pixel.y * measure.ray_y;
@@ -119,39 +139,41 @@ struct Found {
     radius_bits: u32,
     block: u32,
     map: u32,
+    turns_back: bool,
 }
 
 // The sky, and what turns its back on the light, say nothing of the pixels around; a crease has no normal to tell.
 fn found_at(light: u32, pixel: vec2i, size: vec2i) -> Found {
     if depth_at(pixel) >= 1.0 {
-        return Found(MEASURE_NOTHING, 0u, SHADOW_NO_MAP);
+        return Found(MEASURE_NOTHING, 0u, SHADOW_NO_MAP, false);
     }
     let here = surface_at(pixel);
     let map = shadow_map_of(light, here);
     if map == SHADOW_NO_MAP {
-        return Found(MEASURE_NOTHING, 0u, map);
+        return Found(MEASURE_NOTHING, 0u, map, false);
     }
     let normal = normal_at(pixel, size, here);
     let position_light = (shadow_lights.maps[map].light_from_world * vec4f(here, 1.0)).xyz;
     let normal_light = (shadow_lights.maps[map].light_from_world * vec4f(normal, 0.0)).xyz;
     let ray_light = select(vec3f(0.0, 0.0, 1.0), position_light, shadow_lights.maps[map].is_spot == 1u);
     if !faces_light(map, normal_light, ray_light) {
-        return Found(MEASURE_NOTHING, select(SHADOW_BLOCK_MIXED, 0u, dot(normal_light, ray_light) > 0.0), map);
+        let turns_back = dot(normal_light, ray_light) > 0.0;
+        return Found(MEASURE_NOTHING, select(SHADOW_BLOCK_MIXED, 0u, turns_back), map, turns_back);
     }
 
     let sample = shadow_sample(light, here, normal, vec2f(pixel) + 0.5);
     if sample.visibility == 1.0 {
-        return Found(MEASURE_NOTHING, SHADOW_BLOCK_LIT, map);
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_LIT, map, false);
     }
     if sample.visibility == 0.0 {
-        return Found(MEASURE_NOTHING, SHADOW_BLOCK_UMBRA, map);
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_UMBRA, map, false);
     }
     let guard = max(measure.radius_floor_world, measure.radius_per_footprint * footprint(map, here, position_light.z));
     let radius = max(sample.radius_plane, guard);
     if sample.blockers < 2u || !(radius > 0.0) {
-        return Found(MEASURE_NOTHING, SHADOW_BLOCK_MIXED, map);
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_MIXED, map, false);
     }
-    return Found(min(bitcast<u32>(radius), MEASURE_NOTHING), SHADOW_BLOCK_MIXED, map);
+    return Found(min(bitcast<u32>(radius), MEASURE_NOTHING), SHADOW_BLOCK_MIXED, map, false);
 }
 
 // CPU twin: `scumble_core::RadiusHistogram::bin_of`.
@@ -159,6 +181,37 @@ fn bin_of(map: u32, radius_bits: u32) -> u32 {
     let bin = radius_bits >> MEASURE_BIN_SHIFT;
     let first = shadow_lights.maps[map].first_bin;
     return min(max(bin, first) - first, MEASURE_BINS - 1u);
+}
+
+// Bits of a number in its order. CPU inverse: `number_of` of `seen.rs`.
+fn ordered(number: f32) -> u32 {
+    let bits = bitcast<u32>(number);
+    return select(bits | 0x80000000u, ~bits, bits >= 0x80000000u);
+}
+
+// Adds a receiver to the boxes of the group. CPU twin of the band: `scumble_core::Seen::band_depths`.
+fn add_receiver(light: u32, here: vec3f) {
+    let view_depth = max(dot(here - measure.eye, measure.forward), 0.0);
+    let band = max(bitcast<u32>(view_depth) >> MEASURE_BAND_SHIFT, MEASURE_BAND_FIRST) - MEASURE_BAND_FIRST;
+    let first = 4u * min(band, MEASURE_BANDS - 1u);
+    let x = dot(shadow_lights.lights[light].across_x, here);
+    let y = dot(shadow_lights.lights[light].across_y, here);
+    atomicMin(&group_receivers[first], ordered(x));
+    atomicMin(&group_receivers[first + 1u], ordered(y));
+    atomicMin(&group_receivers[first + 2u], ordered(-x));
+    atomicMin(&group_receivers[first + 3u], ordered(-y));
+}
+
+// Adds four of the pixels that `first` stands for, one in each quarter of their rows and of their columns: a surface that
+// ends along either, as ground does at the horizon, is not cut short by more than a quarter of the stride.
+fn add_receivers(light: u32, first: vec2i, size: vec2i) {
+    for (var i = 0u; i < 4u; i++) {
+        let offset = vec2u(i, (2u * i + 1u) % 5u) * measure.stride / 4u;
+        let pixel = min(first + vec2i(offset), size - 1);
+        if depth_at(pixel) < 1.0 {
+            add_receiver(light, surface_at(pixel));
+        }
+    }
 }
 
 @compute @workgroup_size(8, 8)
@@ -176,27 +229,40 @@ fn measure_demand(
     for (var bin = index; bin < map_count * MEASURE_BINS; bin += MEASURE_GROUP) {
         atomicStore(&group_counts[bin], 0u);
     }
+    for (var place = index; place < 4u * MEASURE_BANDS; place += MEASURE_GROUP) {
+        atomicStore(&group_receivers[place], MEASURE_NOWHERE);
+    }
     workgroupBarrier();
     if all(invocation.xy < textureDimensions(corners)) {
-        let found = found_at(light, min(vec2i(invocation.xy * measure.stride), size - 1), size);
+        let pixel = min(vec2i(invocation.xy * measure.stride), size - 1);
+        let found = found_at(light, pixel, size);
         textureStore(corners, invocation.xy, light, vec4u(found.block, 0u, 0u, 0u));
         if found.radius_bits < MEASURE_NOTHING {
             let slice = found.map - first_map;
             atomicMin(&group_minimum[slice], found.radius_bits);
             atomicAdd(&group_counts[slice * MEASURE_BINS + bin_of(found.map, found.radius_bits)], 1u);
         }
+        if map_count > 1u && !found.turns_back {
+            add_receivers(light, pixel, size);
+        }
     }
     workgroupBarrier();
     if index < map_count {
         let minimum = atomicLoad(&group_minimum[index]);
         if minimum < MEASURE_NOTHING {
-            atomicMin(&demand[first_map + index].minimum_bits, minimum);
+            atomicMin(&measured.maps[first_map + index].minimum_bits, minimum);
         }
     }
     for (var bin = index; bin < map_count * MEASURE_BINS; bin += MEASURE_GROUP) {
         let count = atomicLoad(&group_counts[bin]);
         if count > 0u {
-            atomicAdd(&demand[first_map + bin / MEASURE_BINS].counts[bin % MEASURE_BINS], count);
+            atomicAdd(&measured.maps[first_map + bin / MEASURE_BINS].counts[bin % MEASURE_BINS], count);
+        }
+    }
+    for (var place = index; place < 4u * MEASURE_BANDS; place += MEASURE_GROUP) {
+        let minimum = atomicLoad(&group_receivers[place]);
+        if minimum < MEASURE_NOWHERE {
+            atomicMin(&measured.receivers[light].minima[place / 4u][place % 4u], minimum);
         }
     }
 }

@@ -44,8 +44,10 @@ mod moments;
 mod options;
 mod plan;
 mod readback;
+mod seen;
 mod shaders;
 mod shadows;
+mod slices;
 pub mod uniforms;
 mod view;
 

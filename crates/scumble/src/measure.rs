@@ -1,17 +1,18 @@
-//! The demand pass on the GPU: the filter radii on screen by map, and their way back.
+//! The demand pass on the GPU: the filter radii on screen by map and where receivers are by light, and their way back.
 //!
 //! Steps of one call: minima are set to infinity and counts to 0, `shader/measure.wgsl` goes over the depth prepass, the
 //! result is copied into the [readback ring](crate::readback). Nothing is submitted and nothing waits.
 
-use glam::DVec3;
-use scumble_core::{Camera, RadiusHistogram, Settings, Statistic};
+use glam::{DVec2, DVec3};
+use scumble_core::{Camera, Light, RadiusHistogram, Seen, Settings, Statistic};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use crate::blocks::{Blocks, ClassifyPass, corners_of, written_binding};
 use crate::demand::Reading;
 use crate::error::Error;
 use crate::readback::Ring;
-use crate::uniforms::{MAPS_MAX, MapDemand, MeasureUniform};
+use crate::seen::{NOWHERE, Picture};
+use crate::uniforms::{LIGHTS_MAX, LightReceivers, MAPS_MAX, MapDemand, MeasureUniform, Measured};
 
 /// What the shader leaves where no fragment had a penumbra: the bits of infinity.
 pub const NOTHING: u32 = 0x7F80_0000;
@@ -33,14 +34,28 @@ pub struct Measure {
     classify: ClassifyPass,
     blocks: Option<Blocks>,
     bound: Option<(wgpu::TextureView, wgpu::BindGroup)>,
-    ring: Ring<Readings>,
+    ring: Ring<(Readings, Picture)>,
 }
 
 /// By map; `None` where none is drawn.
 pub type Readings = [Option<Reading>; MAPS_MAX as usize];
 
 /// Where nothing was found yet.
-const START: MapDemand = MapDemand { minimum_bits: NOTHING, counts: [0; RadiusHistogram::BINS as usize] };
+const START: Measured = Measured {
+    maps: [MapDemand { minimum_bits: NOTHING, counts: [0; RadiusHistogram::BINS as usize] }; MAPS_MAX as usize],
+    receivers: [LightReceivers { minima: [[NOWHERE; 4]; Seen::BANDS as usize] }; LIGHTS_MAX as usize],
+};
+
+/// By number; `None` where a light has no map.
+pub type Lights = [Option<Light>; LIGHTS_MAX as usize];
+
+/// What came back.
+pub struct Taken {
+    /// By map, in the sense of [`MapState::measured`](crate::plan::MapState).
+    pub radii: Vec<Option<Option<f64>>>,
+    /// By light.
+    pub seen: Vec<Option<Seen>>,
+}
 
 /// What one measurement is about.
 pub struct Request<'a> {
@@ -52,8 +67,8 @@ pub struct Request<'a> {
     pub settings: &'a Settings,
     /// Every how many pixels one is measured.
     pub stride: u32,
-    /// Lights in the uniforms.
-    pub light_count: u32,
+    /// Lights in the uniforms, by number; `None` where a light has no map.
+    pub lights: Lights,
     /// Of their maps.
     pub readings: Readings,
 }
@@ -76,14 +91,14 @@ impl Measure {
             return Err(Error::NoCompute { needed: STORAGE_BUFFERS, found });
         }
         let layout = bind_group_layout(device);
-        let demand_bytes = u64::from(MAPS_MAX) * size_of::<MapDemand>() as u64;
+        let demand_bytes = size_of::<Measured>() as u64;
         let buffer = |label, size, usage| {
             let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
             device.create_buffer(&descriptor)
         };
         let nothing = device.create_buffer_init(&BufferInitDescriptor {
             label: Some("scumble demand start"),
-            contents: bytemuck::cast_slice(&[START; MAPS_MAX as usize]),
+            contents: bytemuck::bytes_of(&START),
             usage: wgpu::BufferUsages::COPY_SRC,
         });
         Ok(Self {
@@ -129,6 +144,7 @@ impl Measure {
         let camera = request.camera.checked()?;
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&camera_uniform(&camera, size_px, request)));
 
+        let light_count = request.lights.iter().rposition(Option::is_some).map_or(0, |last| last as u32 + 1);
         let new_blocks = self.make_blocks(device, corners_of(size_px, request.stride));
         let (bind_group, rebound) = self.bind(device, prepass);
         encoder.copy_buffer_to_buffer(&self.nothing, 0, &self.demand, 0, self.demand.size());
@@ -141,12 +157,18 @@ impl Measure {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, shadow_bind_group, &[]);
             pass.set_bind_group(1, &bind_group, &[]);
-            pass.dispatch_workgroups(groups[0], groups[1], request.light_count);
+            pass.dispatch_workgroups(groups[0], groups[1], light_count);
         }
         if let Some(blocks) = &self.blocks {
-            self.classify.record(encoder, blocks, request.light_count);
+            self.classify.record(encoder, blocks, light_count);
         }
-        let copied = self.ring.record(encoder, &self.demand, request.readings);
+        let picture = Picture {
+            camera,
+            gap: f64::from(request.stride) * pixel_at_unit_distance(&camera, size_px).max_element(),
+            lights: request.lights,
+            origin_world: request.origin_world,
+        };
+        let copied = self.ring.record(encoder, &self.demand, (request.readings, picture));
         let allocations = u64::from(rebound) + u64::from(new_blocks) * Blocks::ALLOCATIONS;
         Ok(Recorded { allocations, new_blocks, copied })
     }
@@ -166,14 +188,16 @@ impl Measure {
         true
     }
 
-    /// The newest result that has come back, by map, in the sense of
-    /// [`MapState::measured`](crate::plan::MapState).
-    pub fn take(&mut self, statistic: Statistic) -> Option<Vec<Option<Option<f64>>>> {
-        let (bytes, readings) = self.ring.take()?;
-        let found: Vec<MapDemand> = bytemuck::pod_collect_to_vec(&bytes);
+    /// The newest result that has come back.
+    pub fn take(&mut self, statistic: Statistic) -> Option<Taken> {
+        let (bytes, (readings, picture)) = self.ring.take()?;
+        let found: Measured = bytemuck::pod_read_unaligned(&bytes);
         let radius =
             |(found, reading): (&MapDemand, Option<Reading>)| Some(reading?.radius_per_scale(found, statistic));
-        Some(found.iter().zip(readings).map(radius).collect())
+        Some(Taken {
+            radii: found.maps.iter().zip(readings).map(radius).collect(),
+            seen: picture.seen(&found.receivers),
+        })
     }
 
     /// The bind group of the prepass, and whether it had to be created.
@@ -226,14 +250,19 @@ fn checked_size(prepass: &wgpu::TextureView) -> Result<[u32; 2], Error> {
     })
 }
 
+/// Width and height of a pixel at view depth 1.
+fn pixel_at_unit_distance(camera: &Camera, [width_px, height_px]: [u32; 2]) -> DVec2 {
+    let height = camera.height_at_unit_distance();
+    DVec2::new(height * camera.aspect / f64::from(width_px), height / f64::from(height_px))
+}
+
 /// Rays and depth of the prepass's pixels. The projection gives ndc depth = A + B / view depth.
 fn camera_uniform(camera: &Camera, [width_px, height_px]: [u32; 2], request: &Request<'_>) -> MeasureUniform {
     let forward = camera.forward();
     let right = forward.cross(camera.up).normalize();
     let up = right.cross(forward);
-    let height = camera.height_at_unit_distance();
-    let ray_x = right * (height * camera.aspect / f64::from(width_px));
-    let ray_y = -up * (height / f64::from(height_px));
+    let pixel = pixel_at_unit_distance(camera, [width_px, height_px]);
+    let (ray_x, ray_y) = (right * pixel.x, -up * pixel.y);
     let corner = forward - 0.5 * (f64::from(width_px) * ray_x + f64::from(height_px) * ray_y);
     let projection = camera.clip_from_view();
     let settings = request.settings;
@@ -249,7 +278,7 @@ fn camera_uniform(camera: &Camera, [width_px, height_px]: [u32; 2], request: &Re
         radius_per_footprint: (ratio * settings.footprint_kappa) as f32,
         forward: forward.as_vec3().to_array(),
         radius_floor_world: settings.demand_radius_world(0.0, 0.0) as f32,
-        pixel_at_unit_distance: (height / f64::from(height_px)) as f32,
+        pixel_at_unit_distance: pixel.y as f32,
         padding: [0.0; 3],
     }
 }

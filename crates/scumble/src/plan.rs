@@ -7,15 +7,16 @@
 use bytemuck::Zeroable;
 use glam::{DMat4, DVec3, Mat4};
 use scumble_core::{
-    Aabb, Bias, Camera, Cascade, Demand, Filter, Fit, Light, ReceiverPlane, Settings, Size, TexelPolicy, cascades,
-    filter, size_achieved, slices_of,
+    Aabb, Bias, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Seen, Settings, Size, TexelPolicy, size_achieved,
+    slices_of,
 };
 
-use crate::demand::{demand, first_bin, lent};
+use crate::demand::first_bin;
 use crate::error::Error;
 use crate::moments::blocks_of;
 use crate::options::{Options, SizeChoice};
-use crate::uniforms::{CASCADES_MAX, LIGHTS_MAX, LightUniform, LightsUniform, MapUniform};
+use crate::slices::{Slice, slices};
+use crate::uniforms::{CASCADES_MAX, LIGHTS_MAX, LightUniform, LightsUniform, MapUniform, NO_MAP};
 use crate::view::{Plan, View};
 
 /// Value of the shaders' constant for a filter; see [`FILTER_OVERRIDE`](crate::FILTER_OVERRIDE).
@@ -34,10 +35,6 @@ fn filter_kind(filter: &Filter) -> u32 {
     }
 }
 
-/// What a box of moments reaches beyond its radius, in radii: half a block on either side and one for bilinear values,
-/// of which the radius measures 3.47 at least.
-const VSM_MARGIN: f64 = 1.5 / 3.47;
-
 /// State of a map between frames.
 #[derive(Clone, Debug)]
 pub struct MapState {
@@ -48,11 +45,13 @@ pub struct MapState {
     pub measured: Option<Option<f64>>,
 }
 
-/// Plans a frame; `states` holds one state a map of the lights or more.
+/// Plans a frame; `states` holds one state a map of the lights or more, `seen` by light what the newest measured picture
+/// showed.
 pub fn plan(
     settings: &Settings,
     options: &Options,
     states: &[MapState],
+    seen: &[Option<Seen>],
     camera: &Camera,
     scene: &Aabb,
     lights: &[Light],
@@ -73,9 +72,10 @@ pub fn plan(
     };
     let mut first = 0;
     for (index, (light, count)) in lights.iter().zip(counts).enumerate() {
-        let slices = cascades(camera, scene, light, options.fitted, &options.cascades)?;
-        plan.uniform.lights[index] = light_uniform(&slices, first, count);
-        for view in views_of_light(settings, options, states, &mut plan.policies, [index as u32, first], slices)? {
+        let seen = seen.get(index).and_then(Option::as_ref);
+        let slices = slices(settings, options, &states[first as usize..], (camera, scene, light), seen)?;
+        plan.uniform.lights[index] = light_uniform(light, &slices, first, count);
+        for view in views_of_light(settings, options, &mut plan.policies, [index as u32, first], slices)? {
             plan.uniform.maps[view.layer as usize] = map_uniform(settings, options, &view);
             plan.views.push(view);
         }
@@ -88,30 +88,23 @@ pub fn plan(
 fn views_of_light(
     settings: &Settings,
     options: &Options,
-    states: &[MapState],
     policies: &mut [TexelPolicy],
     [light, first]: [u32; 2],
-    slices: Vec<Cascade>,
+    slices: Vec<Slice>,
 ) -> Result<Vec<View>, Error> {
-    // Slices that something is in, and what they are asked for.
-    let with_border = |fit: Fit| fit.with_border(border_world(&fit, &options.filter));
-    let maps: Vec<(u32, f64, Fit)> = (0..)
-        .zip(slices)
-        .filter_map(|(slice, cascade)| Some((slice, cascade.depth_end, with_border(cascade.fit?))))
-        .collect();
-    let demands = maps.iter().map(|(slice, _, fit)| {
-        let demand = demand(settings, &options.filter, fit, states[(first + slice) as usize].measured);
-        (demand, fit.extent_world.max_element())
-    });
-    let demands = lent(&demands.collect::<Vec<_>>());
-
-    let view = |((slice, depth_end, fit), demand)| {
+    let mut views = Vec::with_capacity(slices.len());
+    for Slice { slice, depth_end, fit, border_world, demand, is_net } in slices {
+        let Some(fit) = fit else { continue };
         let layer = first + slice;
-        let (fit, size) = sized(settings, options, &mut policies[layer as usize], fit, demand)?;
-        // Where the cap binds, narrower filters than it hides are widened (Kreuzer 2017, 6.2). A fixed size is left alone.
-        let widens = options.size == SizeChoice::Adaptive && size.capped;
+        // A net has its texel from its own extent in every frame, and leaves that of the layer's slice alone.
+        let mut own = TexelPolicy::new(settings)?;
+        let policy = if is_net { &mut own } else { &mut policies[layer as usize] };
+        let (fit, size) = sized(settings, options, policy, fit, demand)?;
+        // Where the cap binds, narrower filters than it hides are widened (Kreuzer 2017, 6.2), and under a net all are. A
+        // fixed size is left alone.
+        let widens = options.size == SizeChoice::Adaptive && (size.capped || is_net);
         let least = if widens { size.radius_min_world } else { 0.0 };
-        Ok(View {
+        views.push(View {
             light,
             slice,
             depth_end,
@@ -119,23 +112,13 @@ fn views_of_light(
             size_texels: size.texels,
             size,
             clip_from_world: fit.clip_from_relative(options.origin_world).as_mat4(),
-            fit,
             radius_min_world: settings.radius_min_world.max(least),
-        })
-    };
-    maps.into_iter().zip(demands).map(view).collect()
-}
-
-/// How far taps reach beyond the outermost receiver, at the reference plane; no further than the light's whole view.
-fn border_world(fit: &Fit, filter: &Filter) -> f64 {
-    let reach = match *filter {
-        Filter::Hard => 0.0,
-        Filter::Pcf { radius_world } => radius_world,
-        Filter::Pcss => filter::search_radius_world(fit, fit.depth_far),
-        Filter::Vsm { radius_world } => radius_world * (1.0 + VSM_MARGIN),
-    };
-    let outside = (fit.extent_world * fit.scale - fit.extent_world).max_element();
-    reach.min(outside.max(0.0))
+            is_net,
+            inner: 1.0 - 2.0 * border_world / fit.extent_world,
+            fit,
+        });
+    }
+    Ok(views)
 }
 
 /// The fit with its size: on the lattice of an adaptive texel, or as it is with fixed texels.
@@ -158,12 +141,22 @@ fn sized(
     Ok((fit, size))
 }
 
-fn light_uniform(slices: &[Cascade], first_map: u32, map_count: u32) -> LightUniform {
+fn light_uniform(light: &Light, slices: &[Slice], first_map: u32, map_count: u32) -> LightUniform {
+    let net_map = slices.iter().find(|slice| slice.is_net).map_or(NO_MAP, |net| first_map + net.slice);
     let mut slice_ends = [f32::MAX; CASCADES_MAX as usize - 1];
     for (end, slice) in slice_ends.iter_mut().zip(slices) {
         *end = (slice.depth_end as f32).min(f32::MAX);
     }
-    LightUniform { slice_ends, map_count, first_map, ..LightUniform::zeroed() }
+    let across = light.light_from_world().transpose();
+    LightUniform {
+        slice_ends,
+        map_count,
+        first_map,
+        net_map,
+        across_x: across.x_axis.truncate().as_vec3().to_array(),
+        across_y: across.y_axis.truncate().as_vec3().to_array(),
+        ..LightUniform::zeroed()
+    }
 }
 
 /// View depth of a point relative to the origin, as a dot product.
@@ -186,6 +179,8 @@ fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUnifor
     let light_from_world: Mat4 =
         (z_as_depth * fit.light_from_world * DMat4::from_translation(options.origin_world)).as_mat4();
     let radius_world = options.filter.fixed_radius_world().unwrap_or(0.0);
+    let is_widened = view.is_net && matches!(options.filter, Filter::Pcf { .. });
+    let least = if is_widened { view.radius_min_world } else { 0.0 };
     MapUniform {
         clip_from_world: view.clip_from_world.to_cols_array_2d(),
         light_from_world: light_from_world.to_cols_array_2d(),
@@ -196,7 +191,7 @@ fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUnifor
         is_spot,
         layer: view.layer,
         light_size: light_size as f32,
-        radius_world: radius_world as f32,
+        radius_world: radius_world.max(least) as f32,
         radius_min_world: view.radius_min_world as f32,
         texel_world: texel_world.max_element() as f32,
         bias_constant_texels: settings.bias.constant_texels as f32,
@@ -210,6 +205,8 @@ fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUnifor
         moment_block: blocks_of(texel_world, radius_world).map(|texels| texels as f32),
         first_bin: first_bin(fit),
         padding: 0,
+        inner: view.inner.as_vec2().to_array(),
+        more_padding: [0; 2],
     }
 }
 

@@ -1,17 +1,17 @@
 //! The object that a renderer keeps: maps, bindings, sizes and the demand pass of all its shadowed lights.
 
-use scumble_core::{Aabb, Camera, Filter, Light, Settings, TexelPolicy};
+use scumble_core::{Aabb, Camera, Filter, Light, Seen, Settings, TexelPolicy};
 
 use crate::bindings::Bindings;
 use crate::counters::Counters;
 use crate::demand::{Reading, measure_scale};
 use crate::error::Error;
 use crate::maps::{MAP_FORMAT, Maps, depth_state};
-use crate::measure::{Measure, Readings, Request};
+use crate::measure::{Lights, Measure, Readings, Request};
 use crate::moments::{Moments, Task};
 use crate::options::Options;
 use crate::plan::{MapState, plan};
-use crate::uniforms::{BLOCKER_TAPS, MAPS_MAX, MOMENT_TAPS, PCF_TAPS};
+use crate::uniforms::{BLOCKER_TAPS, LIGHTS_MAX, MAPS_MAX, MOMENT_TAPS, PCF_TAPS};
 use crate::view::{Plan, View};
 
 /// Adaptive shadow maps of one renderer. The steps of a frame are at the head of the crate.
@@ -25,6 +25,7 @@ pub struct Shadows {
     bindings: Bindings,
     measure: Option<Measure>,
     states: Vec<MapState>,
+    seen: Vec<Option<Seen>>,
     uploaded: Uploaded,
     counters: Counters,
 }
@@ -32,7 +33,7 @@ pub struct Shadows {
 /// What the shaders were told last.
 #[derive(Debug)]
 struct Uploaded {
-    lights: u32,
+    lights: Lights,
     readings: Readings,
     moments: Vec<Task>,
 }
@@ -79,7 +80,12 @@ impl Shadows {
             moments,
             bindings,
             measure: None,
-            uploaded: Uploaded { lights: 0, readings: [None; MAPS_MAX as usize], moments: Vec::new() },
+            seen: Vec::new(),
+            uploaded: Uploaded {
+                lights: [None; LIGHTS_MAX as usize],
+                readings: [None; MAPS_MAX as usize],
+                moments: Vec::new(),
+            },
             counters,
         })
     }
@@ -126,7 +132,7 @@ impl Shadows {
     /// # Errors
     /// A camera, scene or light out of range, and lights with more maps than `options.maps`.
     pub fn plan(&self, camera: &Camera, scene: &Aabb, lights: &[Light]) -> Result<Plan, Error> {
-        plan(&self.settings, &self.options, &self.states, camera, scene, lights)
+        plan(&self.settings, &self.options, &self.states, &self.seen, camera, scene, lights)
     }
 
     /// Makes a plan the one that the shaders see from the queue's next submission on. Once a frame.
@@ -135,12 +141,10 @@ impl Shadows {
         for (state, policy) in self.states.iter_mut().zip(&plan.policies) {
             state.policy.clone_from(policy);
         }
-        self.uploaded = Uploaded {
-            lights: plan.views.iter().map(|view| view.light + 1).max().unwrap_or(0),
-            readings: [None; MAPS_MAX as usize],
-            moments: Vec::new(),
-        };
+        self.uploaded =
+            Uploaded { lights: [None; LIGHTS_MAX as usize], readings: [None; MAPS_MAX as usize], moments: Vec::new() };
         for view in &plan.views {
+            self.uploaded.lights[view.light as usize] = Some(view.fit.light);
             self.uploaded.readings[view.layer as usize] = Some(Reading::of(&view.fit));
         }
         if let (Some(moments), Filter::Vsm { radius_world }) = (&self.moments, self.options.filter) {
@@ -247,7 +251,7 @@ impl Shadows {
                 self.measure.insert(created)
             }
         };
-        if self.uploaded.lights == 0 {
+        if self.uploaded.lights.iter().all(Option::is_none) {
             return Ok(());
         }
         let request = Request {
@@ -255,7 +259,7 @@ impl Shadows {
             origin_world: self.options.origin_world,
             settings: &self.settings,
             stride: self.options.measure_stride,
-            light_count: self.uploaded.lights,
+            lights: self.uploaded.lights,
             readings: self.uploaded.readings,
         };
         let recorded = measure.record(&self.device, queue, encoder, self.bindings.group(), prepass, &request)?;
@@ -275,10 +279,11 @@ impl Shadows {
     /// Takes the newest measurement that has come back, for the plans from here on; never waits. Results arrive while
     /// the caller submits or polls the device. Returns whether there was one. Until the first, sizes come from bounds.
     pub fn read_demand(&mut self) -> bool {
-        let Some(radii) = self.measure.as_mut().and_then(|it| it.take(self.settings.statistic)) else { return false };
-        for (state, radius) in self.states.iter_mut().zip(radii) {
+        let Some(taken) = self.measure.as_mut().and_then(|it| it.take(self.settings.statistic)) else { return false };
+        for (state, radius) in self.states.iter_mut().zip(taken.radii) {
             state.measured = radius;
         }
+        self.seen = taken.seen;
         self.counters.readbacks_taken += 1;
         true
     }
@@ -300,6 +305,7 @@ impl Shadows {
         for state in &mut self.states {
             *state = MapState { policy: policy.clone(), measured: None };
         }
+        self.seen.clear();
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 //! Field order, offsets and constants are those of the shaders; `tests/shaders.rs` compares them with naga's layouts.
 
 use bytemuck::{Pod, Zeroable};
-use scumble_core::{RadiusHistogram, Splits, Taps};
+use scumble_core::{RadiusHistogram, Seen, Splits, Taps};
 
 /// Lights that one set of uniforms holds; `SHADOW_LIGHTS_MAX` of the shaders.
 pub const LIGHTS_MAX: u32 = 4;
@@ -11,6 +11,8 @@ pub const LIGHTS_MAX: u32 = 4;
 pub const CASCADES_MAX: u32 = Splits::COUNT_MAX;
 /// Maps that one set of uniforms holds; `SHADOW_MAPS_MAX` of the shaders.
 pub const MAPS_MAX: u32 = LIGHTS_MAX * CASCADES_MAX;
+/// No map; `SHADOW_NO_MAP` of the shaders.
+pub const NO_MAP: u32 = u32::MAX;
 /// Taps of the filter kernel; `SHADOW_PCF_TAPS` of the shaders.
 pub const PCF_TAPS: u32 = Taps::FILTER as u32;
 /// Taps of the blocker search; `SHADOW_BLOCKER_TAPS` of the shaders.
@@ -68,6 +70,10 @@ pub struct MapUniform {
     pub first_bin: u32,
     /// Unused.
     pub padding: u32,
+    /// Half of the box, in clip space, in which points are looked up here and not in the light's net.
+    pub inner: [f32; 2],
+    /// Unused.
+    pub more_padding: [u32; 2],
 }
 
 /// One map as the passes of variance shadow maps see it; `Moments` of `shader/vsm_map.wgsl`.
@@ -96,8 +102,18 @@ pub struct LightUniform {
     pub map_count: u32,
     /// Index of the nearest slice's map.
     pub first_map: u32,
+    /// Index of the net; [`NO_MAP`] where there is none.
+    pub net_map: u32,
     /// Unused.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
+    /// Direction of light space's x.
+    pub across_x: [f32; 3],
+    /// Unused.
+    pub padding_x: u32,
+    /// Direction of light space's y.
+    pub across_y: [f32; 3],
+    /// Unused.
+    pub padding_y: u32,
 }
 
 /// All lights and maps.
@@ -150,6 +166,25 @@ pub struct MapDemand {
     pub minimum_bits: u32,
     /// Measured fragments with a penumbra, by the bits of their radius.
     pub counts: [u32; RadiusHistogram::BINS as usize],
+}
+
+/// Where receivers of one light are, by band of view depth; `LightReceivers` of `shader/measure.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct LightReceivers {
+    /// Smallest x, y, -x and -y across the light, relative to the origin, in bits that keep their order; all ones where
+    /// there is none.
+    pub minima: [[u32; 4]; Seen::BANDS as usize],
+}
+
+/// All that the demand pass finds; `Measured` of `shader/measure.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Measured {
+    /// By layer.
+    pub maps: [MapDemand; MAPS_MAX as usize],
+    /// By light.
+    pub receivers: [LightReceivers; LIGHTS_MAX as usize],
 }
 
 /// The camera of the demand pass. Rays: `eye + view_depth * (ray_corner + x ray_x + y ray_y)` in pixels.

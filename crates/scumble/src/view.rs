@@ -24,8 +24,12 @@ pub struct View {
     pub clip_from_world: Mat4,
     /// The fit, border for the taps included.
     pub fit: Fit,
-    /// Smallest filter radius that PCSS uses, in metres at the reference plane.
+    /// Smallest filter radius that PCSS uses, and PCF in a net, in metres at the reference plane.
     pub radius_min_world: f64,
+    /// Whether it is the net under slices that are fitted to what a picture showed: the map of all that has appeared since.
+    pub is_net: bool,
+    /// Half of the box, in clip space, in which points are looked up here and not in the net.
+    pub inner: DVec2,
 }
 
 impl View {
@@ -34,6 +38,12 @@ impl View {
     pub fn texel_world(&self) -> DVec2 {
         let [width, height] = self.size_texels;
         self.fit.extent_world / DVec2::new(f64::from(width), f64::from(height))
+    }
+
+    /// Whether a point lies in the box of the map that leaves its taps room.
+    fn is_inner(&self, position_world: DVec3) -> bool {
+        let (uv, _) = self.fit.uv_from_world(position_world);
+        (2.0 * uv - 1.0).abs().cmple(self.inner).all()
     }
 
     /// Texels of the viewport.
@@ -66,13 +76,15 @@ impl Plan {
     }
 
     /// The map of a light that the shaders look a point of the world up in: that of the slice which its depth in the plan's
-    /// view lies in. `None` where everything is lit.
+    /// view lies in, or the net where that slice's map was not fitted to it. `None` where everything is lit.
     #[must_use]
     pub fn view_at(&self, light: u32, position_world: DVec3) -> Option<&View> {
         let depth = (position_world - self.camera.eye).dot(self.camera.forward());
         let maps = self.uniform.lights.get(light as usize)?;
         let slice = maps.slice_ends.iter().filter(|&&end| depth > f64::from(end)).count();
-        self.views_of(light).find(|view| view.slice as usize == slice)
+        let own = self.views_of(light).find(|view| view.slice as usize == slice);
+        let Some(net) = self.views_of(light).find(|view| view.is_net) else { return own };
+        own.filter(|view| view.is_inner(position_world)).or(Some(net))
     }
 
     /// Texels of all maps together.

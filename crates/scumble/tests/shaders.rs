@@ -127,7 +127,8 @@ macro_rules! assert_same_layout {
 #[test]
 fn structs_have_the_same_offsets_in_rust_and_wgsl() {
     use scumble::uniforms::{
-        LightUniform, LightsUniform, MapDemand, MapUniform, MeasureUniform, MomentsUniform, TapsUniform,
+        LightReceivers, LightUniform, LightsUniform, MapDemand, MapUniform, MeasureUniform, Measured, MomentsUniform,
+        TapsUniform,
     };
     let passes = parse(&vsm_reduce_wgsl());
     assert_same_layout!(passes, "Moments", MomentsUniform, [viewport, block, radius, near_over_far, padding]);
@@ -160,11 +161,20 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
             moment_block,
             first_bin,
             padding,
+            inner,
+            more_padding,
         ]
     );
-    assert_same_layout!(module, "ShadowLight", LightUniform, [slice_ends, map_count, first_map]);
+    assert_same_layout!(
+        module,
+        "ShadowLight",
+        LightUniform,
+        [slice_ends, map_count, first_map, net_map, across_x, across_y]
+    );
     assert_same_layout!(module, "ShadowLights", LightsUniform, [maps, lights, view_depth, block_px]);
     assert_same_layout!(module, "MapDemand", MapDemand, [minimum_bits, counts]);
+    assert_same_layout!(module, "LightReceivers", LightReceivers, [minima]);
+    assert_same_layout!(module, "Measured", Measured, [maps, receivers]);
     assert_same_layout!(module, "ShadowTaps", TapsUniform, [pcf, blocker]);
     assert_same_layout!(
         module,
@@ -209,6 +219,8 @@ fn constants_are_the_same_in_rust_and_wgsl() {
     assert_eq!(constant(&module, "SHADOW_PCF_TAPS"), f64::from(PCF_TAPS));
     assert_eq!(constant(&module, "SHADOW_BLOCKER_TAPS"), f64::from(BLOCKER_TAPS));
     assert_eq!(constant(&module, "MEASURE_NOTHING"), f64::from(f32::INFINITY.to_bits()));
+    assert_eq!(constant(&module, "SHADOW_NO_MAP"), f64::from(scumble::uniforms::NO_MAP));
+    assert_eq!(constant(&module, "MEASURE_BANDS"), f64::from(scumble_core::Seen::BANDS));
     assert_eq!(constant(&module, "MEASURE_BINS"), f64::from(scumble_core::RadiusHistogram::BINS));
     let share = scumble::scumble_core::filter::SEARCH_SHARE as f32;
     assert_eq!(constant(&module, "SHADOW_SEARCH_SHARE"), f64::from(share));

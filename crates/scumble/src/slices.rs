@@ -1,0 +1,117 @@
+//! The slices of one light before they have a size: fitted, with a border for the taps, and asked for a radius.
+//!
+//! Without a picture that shows where receivers are, slices are fitted to the scene's box in the view. With one they are
+//! fitted to what it showed, and the last map is a *net*: coarse, widened until it hides its texels, and as wide as the view.
+//! Receivers that no other map was fitted to are looked up there, so that they never lack their shadow while the next
+//! picture is on its way.
+
+use scumble_core::{
+    Aabb, Camera, Cascade, Demand, Filter, Fit, Light, Seen, SeenCascades, Settings, cascades, filter, seen_cascades,
+};
+
+use crate::demand::{demand, lent};
+use crate::error::Error;
+use crate::options::{Options, SizeChoice};
+use crate::plan::MapState;
+
+/// What a box of moments reaches beyond its radius, in radii: half a block on either side and one for bilinear values,
+/// of which the radius measures 3.47 at least.
+const VSM_MARGIN: f64 = 1.5 / 3.47;
+
+/// Most texels that a net has across, but for the ladder's quarter octave: at most a tenth of a map of 2048 x 2048, for the few
+/// frames until a picture has shown what appeared.
+const NET_SIDE: u32 = 512;
+
+/// Least texel of a net in texels of the slice that asks for the coarsest: it costs a quarter of one map for the whole view.
+const NET_TEXEL: f64 = 2.0;
+
+/// One map of a light before it has a size.
+pub struct Slice {
+    /// Its number, which its layer follows from.
+    pub slice: u32,
+    /// View depth at which it ends, in metres; infinite for the last and for a net.
+    pub depth_end: f64,
+    /// With the border for the taps; `None` where nothing is in it.
+    pub fit: Option<Fit>,
+    /// Width of the border, at the reference plane.
+    pub border_world: f64,
+    /// What it is asked for.
+    pub demand: Demand,
+    /// Whether it is the net under the others.
+    pub is_net: bool,
+}
+
+/// The slices of one light: fitted to what a picture showed, with the net as the last, or to the view of the scene's box.
+/// Fixed sizes stretch with their box, so they follow the view alone.
+pub fn slices(
+    settings: &Settings,
+    options: &Options,
+    states: &[MapState],
+    (camera, scene, light): (&Camera, &Aabb, &Light),
+    seen: Option<&Seen>,
+) -> Result<Vec<Slice>, Error> {
+    let seen = seen.filter(|_| options.fitted && options.size == SizeChoice::Adaptive);
+    let fitted = match seen {
+        Some(seen) => seen_cascades(camera, scene, light, &options.cascades, seen)?,
+        None => None,
+    };
+    let (cascades, net) = match fitted {
+        Some(SeenCascades { slices, net }) => (slices, Some(net)),
+        None => (cascades(camera, scene, light, options.fitted, &options.cascades)?, None),
+    };
+    let slice = |((slice, Cascade { depth_end, fit }), state): ((u32, Cascade), &MapState)| {
+        let border_world = fit.as_ref().map_or(0.0, |fit| border_world(fit, reach_world(fit, &options.filter)));
+        let fit = fit.map(|fit| fit.with_border(border_world));
+        let demand = fit.as_ref().map_or(Demand::Nothing, |fit| demand(settings, &options.filter, fit, state.measured));
+        Slice { slice, depth_end, fit, border_world, demand, is_net: false }
+    };
+    let mut slices: Vec<Slice> = (0..).zip(cascades).zip(states).map(slice).collect();
+    lend(&mut slices);
+    slices.extend(net.map(|net| net_slice(settings, &options.filter, &slices, net)));
+    Ok(slices)
+}
+
+/// Slices that something is in and no penumbra are lent a demand.
+fn lend(slices: &mut [Slice]) {
+    let mut present: Vec<&mut Slice> = slices.iter_mut().filter(|slice| slice.fit.is_some()).collect();
+    let extent = |slice: &Slice| slice.fit.as_ref().map_or(0.0, |fit| fit.extent_world.max_element());
+    let asked: Vec<(Demand, f64)> = present.iter().map(|slice| (slice.demand, extent(slice))).collect();
+    for (slice, demand) in present.iter_mut().zip(lent(&asked)) {
+        slice.demand = demand;
+    }
+}
+
+/// The net under slices: its radius is at least that of the texels that it is given, whatever the screen asks for.
+fn net_slice(settings: &Settings, filter: &Filter, slices: &[Slice], net: Fit) -> Slice {
+    let texel_world = net.extent_world.max_element() / f64::from(NET_SIDE - 1);
+    let widest = slices.iter().filter_map(|slice| match slice.demand {
+        Demand::Radius(radius_world) => Some(NET_TEXEL * radius_world),
+        Demand::Nothing => None,
+    });
+    let radius_world = widest.fold(settings.relation.radius_from_texel(texel_world), f64::max);
+    let border_world = border_world(&net, reach_world(&net, filter).max(radius_world));
+    Slice {
+        slice: slices.len() as u32,
+        depth_end: f64::INFINITY,
+        fit: Some(net.with_border(border_world)),
+        border_world,
+        demand: Demand::Radius(radius_world),
+        is_net: true,
+    }
+}
+
+/// How far taps reach at the reference plane.
+fn reach_world(fit: &Fit, filter: &Filter) -> f64 {
+    match *filter {
+        Filter::Hard => 0.0,
+        Filter::Pcf { radius_world } => radius_world,
+        Filter::Pcss => filter::search_radius_world(fit, fit.depth_far),
+        Filter::Vsm { radius_world } => radius_world * (1.0 + VSM_MARGIN),
+    }
+}
+
+/// How wide a border taps of this reach need around the outermost receiver; no wider than the light's whole view.
+fn border_world(fit: &Fit, reach_world: f64) -> f64 {
+    let outside = (fit.extent_world * fit.scale - fit.extent_world).max_element();
+    reach_world.min(outside.max(0.0))
+}
