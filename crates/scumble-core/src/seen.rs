@@ -127,7 +127,8 @@ fn corners_moved(then: &Camera, now: &Camera, depth: f64) -> [DVec3; 4] {
 /// The slices of a light around what was seen, and what catches all else.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenCascades {
-    /// One fewer than [`cascades`] makes, from the nearest on, the last without an end. Without a fit where nothing was seen.
+    /// One fewer than [`cascades`](crate::cascades) makes, from the nearest on, the last without an end. Without a fit where
+    /// nothing was seen.
     pub slices: Vec<Cascade>,
     /// The fit of the whole view: for receivers that no camera can tell before they appear, and for those that move.
     pub net: Fit,
@@ -137,11 +138,11 @@ pub struct SeenCascades {
 /// farthest of them. A receiver that was seen, has not moved and is on screen is in the map of its slice; every other one
 /// on screen is in the net.
 ///
-/// `None` where [`cascades`] serves better: a light that is not split, a view of nothing, a picture that showed no receiver,
-/// and a view that has moved by half of the picture's height since.
+/// `None` where [`cascades`](crate::cascades) serves better: a light that is not split, a view of nothing, a picture that
+/// showed no receiver, and a view that has moved by half of the picture's height since.
 ///
 /// # Errors
-/// As [`cascades`], also for the camera and the light of the picture.
+/// As [`cascades`](crate::cascades), also for the camera and the light of the picture.
 pub fn seen_cascades(
     camera: &Camera,
     scene: &Aabb,

@@ -30,7 +30,9 @@ pub struct Options {
     /// [`MAPS_MAX`]. A spot has one, a directional light one for each of its `cascades`.
     pub maps: u32,
     /// Into how many slices the view of a directional light is cut, each with a map of its own box and size. Worth it
-    /// outdoors, where the nearest contact asks for texels that the distance has no use for.
+    /// outdoors, where the nearest contact asks for texels that the distance has no use for. Adaptive maps of two slices and
+    /// more follow the receivers that `measure` saw; the last of them is then a coarse net over the whole view, for what
+    /// appears before the next result.
     pub cascades: Splits,
     /// Origin of the world space that shaders and vertex buffers use, in world coordinates. Put it near the camera or
     /// the scene where coordinates are large: what reaches the GPU is relative to it, in f32.

@@ -223,8 +223,11 @@ impl Shadows {
     }
 
     /// Records the demand pass: the filter radii that the pixels of a depth prepass need, by map, with the maps and
-    /// matrices uploaded last; which of them counts is the settings' [`Statistic`](scumble_core::Statistic). The result comes back frames later; see [`Shadows::read_demand`]. One call a
-    /// submission.
+    /// matrices uploaded last; which of them counts is the settings' [`Statistic`](scumble_core::Statistic). The result comes
+    /// back frames later; see [`Shadows::read_demand`]. One call a submission.
+    ///
+    /// It also boxes the receivers, for [cascades](Options::cascades) to follow: so call it each frame or never, and
+    /// [`Shadows::reset`] where you stop.
     ///
     /// Call it after the maps are drawn and before shading: until the next `upload`, `shadow_visibility` then takes its
     /// `frag_coord` for a pixel of this prepass, and filters only where the pass did not find the pixels around it lit or

@@ -19,6 +19,9 @@ pub struct MapRecord {
     /// View depth at which the slice ends, metres; null for the last.
     #[serde(default)]
     pub depth_end_world: Option<f64>,
+    /// Whether it is the coarse map under slices that follow what was seen.
+    #[serde(default)]
+    pub net: bool,
     /// Texels across and down of the texture it was allocated in.
     pub size: [u32; 2],
     /// The part of it in use: x, y, width, height in texels.
@@ -51,6 +54,7 @@ impl MapRecord {
             light: view.light,
             slice: view.slice,
             depth_end_world: Some(view.depth_end).filter(|end| end.is_finite()),
+            net: view.is_net,
             size: [cap, cap],
             viewport: [0, 0, width, height],
             extent_world: view.fit.extent_world.to_array(),
