@@ -116,23 +116,6 @@ fn normal_at(pixel: vec2i, size: vec2i, here: vec3f) -> vec3f {
     return normal / max(length(normal), 1e-30);
 }
 
-// Width of a pixel at the receiver, projected onto the reference plane. CPU twin:
-// `scumble_core::pixel_footprint_world`.
-fn footprint(map: u32, here: vec3f, light_depth: f32) -> f32 {
-    let at_receiver = dot(here - measure.eye, measure.forward) * measure.pixel_at_unit_distance;
-    if shadow_lights.maps[map].is_spot == 1u {
-        return at_receiver * shadow_lights.maps[map].depth_near / light_depth;
-    }
-    return at_receiver;
-}
-
-// Whether the surface looks towards the light, no steeper than the bias follows: beyond, it shadows itself.
-fn faces_light(map: u32, normal_light: vec3f, ray_light: vec3f) -> bool {
-    let along = dot(normal_light, ray_light);
-    let slope_max = shadow_lights.maps[map].slope_max;
-    return along < 0.0 && along * along * (1.0 + slope_max * slope_max) >= dot(ray_light, ray_light);
-}
-
 // What a fragment tells: bits of the radius that it needs of a map, or MEASURE_NOTHING; and what it is for the pixels
 // around it.
 struct Found {
@@ -155,8 +138,8 @@ fn found_at(light: u32, pixel: vec2i, size: vec2i) -> Found {
     let normal = normal_at(pixel, size, here);
     let position_light = (shadow_lights.maps[map].light_from_world * vec4f(here, 1.0)).xyz;
     let normal_light = (shadow_lights.maps[map].light_from_world * vec4f(normal, 0.0)).xyz;
-    let ray_light = select(vec3f(0.0, 0.0, 1.0), position_light, shadow_lights.maps[map].is_spot == 1u);
-    if !faces_light(map, normal_light, ray_light) {
+    let ray_light = shadow_ray_light(map, position_light);
+    if !shadow_faces_light(map, normal_light, ray_light) {
         let turns_back = dot(normal_light, ray_light) > 0.0;
         return Found(MEASURE_NOTHING, select(SHADOW_BLOCK_MIXED, 0u, turns_back), map, turns_back);
     }
@@ -168,7 +151,9 @@ fn found_at(light: u32, pixel: vec2i, size: vec2i) -> Found {
     if sample.visibility == 0.0 {
         return Found(MEASURE_NOTHING, SHADOW_BLOCK_UMBRA, map, false);
     }
-    let guard = max(measure.radius_floor_world, measure.radius_per_footprint * footprint(map, here, position_light.z));
+    let pixel_world = dot(here - measure.eye, measure.forward) * measure.pixel_at_unit_distance;
+    let footprint = shadow_footprint(map, pixel_world, position_light.z);
+    let guard = max(measure.radius_floor_world, measure.radius_per_footprint * footprint);
     let radius = max(sample.radius_plane, guard);
     if sample.blockers < 2u || !(radius > 0.0) {
         return Found(MEASURE_NOTHING, SHADOW_BLOCK_MIXED, map, false);

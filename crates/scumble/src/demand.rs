@@ -22,7 +22,12 @@ impl Reading {
 
     /// The radius that counts, in the sense of [`MapState::measured`](crate::plan::MapState).
     pub fn radius_per_scale(&self, found: &MapDemand, statistic: Statistic) -> Option<f64> {
-        match statistic.demand(found.minimum_bits, &RadiusHistogram::new(self.first_bin, &found.counts)) {
+        self.per_scale(statistic.demand(found.minimum_bits, &RadiusHistogram::new(self.first_bin, &found.counts)))
+    }
+
+    /// A demand under the map, in the same sense.
+    pub fn per_scale(&self, demand: Demand) -> Option<f64> {
+        match demand {
             Demand::Radius(radius_world) => Some(radius_world / self.scale),
             Demand::Nothing => None,
         }

@@ -1,5 +1,7 @@
 //! What can be wrong with what a caller passes in. Each message says what was found and what is allowed.
 
+use scumble_core::Statistic;
+
 use crate::uniforms::{LIGHTS_MAX, MAPS_MAX};
 
 /// Why a call of this crate was refused.
@@ -89,6 +91,15 @@ pub enum Error {
         /// Storage buffers a stage of the device.
         found: u32,
     },
+    /// A histogram is not made by fragment shaders.
+    #[error("{0:?} cannot be measured in fragment shaders, only Statistic::Minimum; `Shadows::measure` has both")]
+    FragmentStatistic(Statistic),
+    /// The device has no storage for fragment shaders.
+    #[error(
+        "measuring in fragment shaders needs 1 storage buffer a stage; this device has 0 \
+         (`Limits::max_storage_buffers_per_shader_stage`)"
+    )]
+    NoFragmentStorage,
     /// The prepass cannot be read.
     #[error(
         "the depth prepass is {found}; measuring needs a single-sample 2D depth texture with TEXTURE_BINDING usage, \

@@ -9,6 +9,7 @@
 //!    makes the moments of a variance shadow map; with other filters it does nothing.
 //! 5. [`Shadows::measure`], optional, looks at a depth prepass and finds the radii on screen, of which the smallest
 //!    (Kreuzer 2017, Eq. 5.12) or a [`Statistic`] sizes the map, and where everything is lit or dark: there the shading needs one lookup and no filter.
+//!    Renderers without a prepass measure while they shade: [`FragmentDemand`].
 //! 6. The caller shades: [`shadow_wgsl`] before its shader, [`Shadows::bind_group`] bound, `shadow_visibility` called.
 //!
 //! ```no_run
@@ -38,6 +39,7 @@ mod blocks;
 mod counters;
 mod demand;
 mod error;
+mod fragments;
 mod maps;
 mod measure;
 mod moments;
@@ -53,12 +55,14 @@ mod view;
 
 pub use counters::Counters;
 pub use error::Error;
+pub use fragments::{FragmentDemand, FragmentsStorage};
 pub use measure::NOTHING as MEASURE_NOTHING;
 pub use options::{Options, SizeChoice};
 pub use plan::filter_constant;
 pub use scumble_core::{self, Aabb, Camera, Filter, Light, Settings, Splits, Statistic};
 pub use shaders::{
-    CLASSIFY_WGSL, CLEAR_WGSL, FILTER_OVERRIDE, measure_wgsl, shadow_wgsl, vsm_box_wgsl, vsm_reduce_wgsl,
+    CLASSIFY_WGSL, CLEAR_WGSL, FILTER_OVERRIDE, fragments_wgsl, measure_wgsl, shadow_wgsl, vsm_box_wgsl,
+    vsm_reduce_wgsl,
 };
 pub use shadows::Shadows;
 pub use uniforms::{BLOCKER_TAPS, CASCADES_MAX, LIGHTS_MAX, MAPS_MAX, MOMENT_TAPS, PCF_TAPS};

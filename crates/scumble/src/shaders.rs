@@ -8,6 +8,8 @@ const PCF: &str = include_str!("../shader/pcf.wgsl");
 const PCSS: &str = include_str!("../shader/pcss.wgsl");
 const VSM: &str = include_str!("../shader/vsm.wgsl");
 const VISIBILITY: &str = include_str!("../shader/visibility.wgsl");
+const RECEIVES: &str = include_str!("../shader/receives.wgsl");
+const FRAGMENTS: &str = include_str!("../shader/fragments.wgsl");
 const MEASURE: &str = include_str!("../shader/measure.wgsl");
 const VSM_MAP: &str = include_str!("../shader/vsm_map.wgsl");
 const VSM_REDUCE: &str = include_str!("../shader/vsm_reduce.wgsl");
@@ -39,7 +41,17 @@ pub fn shadow_wgsl(group: u32) -> String {
 
 /// The demand pass, for tests that look at it.
 pub fn measure_wgsl() -> String {
-    [&shadow_wgsl(0), MEASURE].join("\n")
+    [&shadow_wgsl(0), RECEIVES, MEASURE].join("\n")
+}
+
+/// WGSL to put after [`shadow_wgsl`], for renderers without a depth prepass: it declares the binding of
+/// [`FragmentDemand::bind_group`](crate::FragmentDemand::bind_group) in bind group `group` and gives
+/// `fn shadow_visibility_measured(light: u32, position_world: vec3f, normal_world: vec3f, frag_coord: vec2f,
+/// pixel_world: f32) -> f32`, which is `shadow_visibility` and tells the demand. `pixel_world` is the width of a pixel at
+/// the fragment in world length: its view depth by the height of the view one unit away, over the picture's height in
+/// pixels.
+pub fn fragments_wgsl(group: u32) -> String {
+    [RECEIVES, FRAGMENTS].join("\n").replace("@group(0)", &format!("@group({group})"))
 }
 
 /// The first pass of variance shadow maps, for tests that look at it.

@@ -283,12 +283,22 @@ impl Shadows {
     /// the caller submits or polls the device. Returns whether there was one. Until the first, sizes come from bounds.
     pub fn read_demand(&mut self) -> bool {
         let Some(taken) = self.measure.as_mut().and_then(|it| it.take(self.settings.statistic)) else { return false };
-        for (state, radius) in self.states.iter_mut().zip(taken.radii) {
+        self.set_measured(taken.radii.into_iter());
+        self.seen = taken.seen;
+        true
+    }
+
+    /// Takes what was measured of the maps, by map, in the sense of [`MapState::measured`].
+    pub(crate) fn set_measured(&mut self, radii: impl Iterator<Item = Option<Option<f64>>>) {
+        for (state, radius) in self.states.iter_mut().zip(radii) {
             state.measured = radius;
         }
-        self.seen = taken.seen;
         self.counters.readbacks_taken += 1;
-        true
+    }
+
+    /// How to read what is found under the maps uploaded last.
+    pub(crate) fn readings(&self) -> Readings {
+        self.uploaded.readings
     }
 
     /// The newest measurement for a map in use, in metres at the reference plane of `view`: `None` before the first,

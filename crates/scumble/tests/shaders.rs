@@ -2,8 +2,8 @@
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use scumble::{
-    BLOCKER_TAPS, CASCADES_MAX, FILTER_OVERRIDE, LIGHTS_MAX, MAPS_MAX, PCF_TAPS, filter_constant, measure_wgsl,
-    shadow_wgsl, vsm_box_wgsl, vsm_reduce_wgsl,
+    BLOCKER_TAPS, CASCADES_MAX, FILTER_OVERRIDE, LIGHTS_MAX, MAPS_MAX, PCF_TAPS, filter_constant, fragments_wgsl,
+    measure_wgsl, shadow_wgsl, vsm_box_wgsl, vsm_reduce_wgsl,
 };
 use scumble_core::Filter;
 
@@ -42,9 +42,15 @@ fn filters() -> [(&'static str, f64); 5] {
 
 #[test]
 fn every_shader_is_valid_with_every_filter() {
-    for source in
-        [with_use(0), with_use(3), measure_wgsl(), scumble::CLEAR_WGSL.to_owned(), scumble::CLASSIFY_WGSL.to_owned()]
-    {
+    let measured = [with_use(0), fragments_wgsl(1)].join("\n");
+    for source in [
+        with_use(0),
+        with_use(3),
+        measured,
+        measure_wgsl(),
+        scumble::CLEAR_WGSL.to_owned(),
+        scumble::CLASSIFY_WGSL.to_owned(),
+    ] {
         let (module, info) = validate(&source);
         for (name, value) in filters() {
             let constants = if module.overrides.is_empty() {
@@ -94,7 +100,7 @@ fn the_bindings_move_to_the_callers_group() {
 
 #[test]
 fn all_names_carry_the_prefix() {
-    let module = parse(&shadow_wgsl(0));
+    let module = parse(&[shadow_wgsl(0), fragments_wgsl(1)].join("\n"));
     let functions = module.functions.iter().filter_map(|(_, f)| f.name.clone());
     let types = module.types.iter().filter_map(|(_, t)| t.name.clone());
     let constants = module.constants.iter().filter_map(|(_, c)| c.name.clone());
@@ -132,6 +138,13 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
     };
     let passes = parse(&vsm_reduce_wgsl());
     assert_same_layout!(passes, "Moments", MomentsUniform, [viewport, block, radius, near_over_far, padding]);
+    let fragments = parse(&[shadow_wgsl(0), fragments_wgsl(1)].join("\n"));
+    assert_same_layout!(
+        fragments,
+        "ShadowFragments",
+        scumble::FragmentsStorage,
+        [radius_per_footprint, radius_floor_world, minima]
+    );
     let module = parse(&measure_wgsl());
     assert_same_layout!(
         module,
