@@ -169,13 +169,13 @@ fn both(settings: Settings, light: Light, vertices: &[Vec3], camera: Camera) -> 
     let mut rig = Rig::new(settings, fixed(Filter::Pcss, 512), vertices);
     rig.camera = camera;
     let plan = rig.draw_and_measure(&[light], SIDE);
-    let by_prepass = rig.shadows.measured_radius_world(&plan.views()[0]).unwrap();
-    rig.shadows.reset().unwrap();
-    let mut demand = FragmentDemand::new(&rig.gpu.device, &rig.shadows).unwrap();
+    let by_prepass = rig.shadows.measured_radius_world(&plan.views()[0]).expect("there is a result");
+    rig.shadows.reset().expect("the settings are allowed");
+    let mut demand = FragmentDemand::new(&rig.gpu.device, &rig.shadows).expect("a minimum can be measured");
     let picture = shade(&mut rig, &mut demand, light, vertices);
     assert_eq!(rig.shadows.measured_radius_world(&plan.views()[0]), None, "nothing was read yet");
     assert!(demand.read(&mut rig.shadows) && !demand.read(&mut rig.shadows), "one result has come back");
-    ([rig.shadows.measured_radius_world(&plan.views()[0]).unwrap(), by_prepass], picture)
+    ([rig.shadows.measured_radius_world(&plan.views()[0]).expect("there is a result"), by_prepass], picture)
 }
 
 #[test]
