@@ -96,6 +96,10 @@ fn light_sample(scene: &Scene, rays: &Rays, from: DVec3, on_disc: DVec2) -> (DVe
             let rim = ((cosine - edge) / (0.2 * (1.0 - edge))).clamp(0.0, 1.0) as f32;
             (towards, 1.4 * rim * rim * (3.0 - 2.0 * rim))
         }
+        Light::Point { position, radius_world, .. } => {
+            let (u, v) = (position - from).normalize().any_orthonormal_pair();
+            (position + (u * on_disc.x + v * on_disc.y) * radius_world - from, 1.4)
+        }
     }
 }
 

@@ -124,6 +124,11 @@ impl<'a> LightTruth<'a> {
             Light::Spot { position, radius_world, .. } => {
                 position + self.world_from_light * (radius_world * disc).extend(0.0)
             }
+            // The disc that the sphere shows.
+            Light::Point { position, radius_world, .. } => {
+                let (right, up) = (start - position).normalize_or(DVec3::Y).any_orthonormal_pair();
+                position + radius_world * (disc.x * right + disc.y * up)
+            }
         }
     }
 }

@@ -69,6 +69,17 @@ impl Scene {
                     })
                     .to_vec()
             }
+            // A bulb swings too, though only its place changes.
+            Light::Point { position, .. } => {
+                let cord = LAMP_CORD_SHARE * self.bounds().size().length();
+                let pivot = position + cord * DVec3::Y;
+                SWING
+                    .map(|s| {
+                        let direction = DQuat::from_rotation_x(s * LAMP_SWING) * DVec3::NEG_Y;
+                        Pose { position: pivot + cord * direction, direction }
+                    })
+                    .to_vec()
+            }
         };
         vec![Path { name: "sweep", keys }]
     }
@@ -96,6 +107,7 @@ impl Scene {
             Light::Spot { position, direction, .. } => {
                 (*position, *direction) = (pose.position, pose.direction);
             }
+            Light::Point { position, .. } => *position = pose.position,
         }
         (camera, light)
     }

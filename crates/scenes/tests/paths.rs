@@ -71,6 +71,7 @@ fn parts(light: &Light) -> (DVec3, DVec3) {
     match *light {
         Light::Directional { direction, .. } => (DVec3::ZERO, direction),
         Light::Spot { position, direction, .. } => (position, direction),
+        Light::Point { position, .. } => (position, DVec3::ZERO),
     }
 }
 

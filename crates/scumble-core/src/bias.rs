@@ -6,6 +6,12 @@
 //! - directional: `d + t . o`,
 //! - spot: `d / (1 - t . o / ref)`; its reciprocal, and so the depth of clip space, is linear in o.
 //!
+//! A spot's kernel is a disc of that plane. A sphere shows every receiver a disc across the ray s: its points
+//! v, seen through a blocker, fall on v_xy - s v_z of the plane, so the disc of radius 1 is an ellipse, 1 wide across s and
+//! sqrt(1 + |s|^2) along s: `o + k (k . o)` with `k = s / sqrt(1 + sqrt(1 + |s|^2))`. On the border of two faces both have
+//! the same angle to their axes, and so the same kernel. For the same reason a blocker under a sphere counts by its distance
+//! along the ray, `d (1 + o . s / (ref (1 + |s|^2)))` as a depth, and not along the axis.
+//!
 //! A map stores depth at texel centres: a nearest lookup errs by up to half a texel in x and y, a bilinear comparison
 //! by up to one. So the bias is `texel (constant + slope (|t_x| + |t_y|))` with `slope` = 1, authored in texels because
 //! the size changes while the program runs. The truth has no texel and keeps only the rounding part. Limit: t is
@@ -72,6 +78,8 @@ pub struct ReceiverPlane {
     pub perspective_reference: Option<f64>,
     /// Depth of the map's far plane; the tangent plane is not followed beyond it.
     pub depth_far: f64,
+    /// s of a sphere; zero of other lights, whose kernel is a disc of the reference plane.
+    pub sphere_ray: DVec2,
 }
 
 impl ReceiverPlane {
@@ -84,15 +92,31 @@ impl ReceiverPlane {
         let depth = -p.z;
         let perspective_reference = match fit.light {
             Light::Directional { .. } => None,
-            Light::Spot { .. } => Some(fit.reference_depth()),
+            Light::Spot { .. } | Light::Point { .. } => Some(fit.reference_depth()),
         };
         let ray = if perspective_reference.is_some() { p.truncate() / depth } else { DVec2::ZERO };
+        let sphere_ray = if fit.face.is_some() { ray } else { DVec2::ZERO };
         let along = ray.dot(n.truncate()) - n.z;
         let slope = slope_of(n.truncate(), along, bias.slope_angle_max.tan());
         let texel = texel_world.max_element() / fit.reference_from_depth(depth);
         let of_texel = texel * (bias.constant_texels + bias.slope_texels * (slope.x.abs() + slope.y.abs()));
         let bias_world = of_texel + ROUNDING * (fit.depth_far - fit.depth_near);
-        Self { depth, slope, bias_world, perspective_reference, depth_far: fit.depth_far }
+        Self { depth, slope, bias_world, perspective_reference, depth_far: fit.depth_far, sphere_ray }
+    }
+
+    /// An offset of the kernel, under a sphere in the disc across the ray, as it lies on the reference plane.
+    #[must_use]
+    pub fn on_plane(&self, offset_world: DVec2) -> DVec2 {
+        let k = self.sphere_ray / (1.0 + (1.0 + self.sphere_ray.length_squared()).sqrt()).sqrt();
+        offset_world + k * k.dot(offset_world)
+    }
+
+    /// What a blocker counts for that was found at a depth under `offset_world` of the reference plane: under a sphere its
+    /// distance along the receiver's ray, as the depth at which that ray has it.
+    #[must_use]
+    pub fn depth_along_ray(&self, depth: f64, offset_world: DVec2) -> f64 {
+        let Some(reference) = self.perspective_reference else { return depth };
+        depth * (1.0 + self.sphere_ray.dot(offset_world) / (reference * (1.0 + self.sphere_ray.length_squared())))
     }
 
     /// The depth to compare with at `offset_world` on the reference plane, in metres.
@@ -124,7 +148,8 @@ fn slope_of(n_xy: DVec2, along: f64, largest: f64) -> DVec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::tests_support::{lamp_over_room, sun_over_room};
+    use crate::fit::tests_support::{bulb, lamp_over_room, observer, room, sun_over_room};
+    use crate::{Face, fit_face};
 
     /// A tilted plane through `p`; the depth where the light's ray at an offset meets it, computed in world space.
     fn truth(fit: &Fit, p: DVec3, n: DVec3, offset: DVec2) -> f64 {
@@ -157,6 +182,28 @@ mod tests {
         for corner in [DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0), DVec2::new(1.0, -1.0), DVec2::new(-1.0, -1.0)] {
             let stored = truth(&fit, DVec3::ZERO, n, corner * texel);
             assert!(plane.depth_at(DVec2::ZERO) < stored);
+        }
+    }
+
+    #[test]
+    fn the_kernel_of_a_bulb_is_a_cone_around_the_ray_and_that_of_others_a_disc_of_the_plane() {
+        let fit = fit_face(&observer(), &room(), &bulb(), Face::NegativeY, true).unwrap().unwrap();
+        let (radius, near) = (1e-4 * fit.depth_near, fit.depth_near);
+        for ray in [DVec3::NEG_Y, DVec3::new(0.7, -1.0, 0.2), DVec3::new(-1.0, -1.0, 1.0)] {
+            let p = fit.light.position().unwrap() + ray;
+            let plane = ReceiverPlane::new(&fit, p, DVec3::Y, &Bias::default(), DVec2::ZERO);
+            for turn in 0..16 {
+                let offset = plane.on_plane(radius * DVec2::from_angle(f64::from(turn)));
+                let tap = fit.world_from_plane(fit.plane_from_world(p) + offset, 1.0) - fit.light.position().unwrap();
+                // A length across the ray at the plane's distance along it: the same angle all around.
+                let angle = tap.angle_between(ray);
+                let expected = radius / (near * ray.length());
+                assert!((angle / expected - 1.0).abs() < 1e-3, "{ray} {turn}: {angle} {expected}");
+            }
+        }
+        for fit in [sun_over_room(), lamp_over_room()] {
+            let plane = ReceiverPlane::new(&fit, DVec3::splat(0.1), DVec3::Y, &Bias::default(), DVec2::ZERO);
+            assert_eq!(plane.on_plane(DVec2::new(0.3, -0.7)), DVec2::new(0.3, -0.7));
         }
     }
 

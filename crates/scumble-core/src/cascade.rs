@@ -1,18 +1,19 @@
-//! The maps of one light: one, or a fit for each slice of the observer's view.
+//! The maps of one light: one, a fit for each slice of the observer's view, or one for each face of a point light.
 //!
 //! One texel for the whole view of a landscape is either too coarse beside the observer or wasted on the distance
 //! (z-partitioning in the course of Eisemann and others). A slice has a light-space box, a lattice and a texel of its own.
 //! Which slice a point belongs to is decided by its view depth and not by which box holds it: a box grows and shrinks with
 //! its texel and the filter's border, a slice does not, so what a map is asked for does not depend on what it was given.
 //!
-//! Only directional light is split. A spot's own perspective already gives more texels to what is near it.
+//! Only directional light is split. A lamp's own perspective already gives more texels to what is near it.
 
 use glam::DVec3;
 
 use crate::aabb::Aabb;
 use crate::camera::Camera;
 use crate::error::Error;
-use crate::fit::{Fit, fit};
+use crate::face::Face;
+use crate::fit::{Fit, fit, fit_face};
 use crate::light::Light;
 use crate::polyhedron::Polyhedron;
 use crate::split::Splits;
@@ -22,17 +23,18 @@ use crate::split::Splits;
 /// from the shaders' origin as the end is from the eye.
 pub(crate) const OVERLAP: f64 = 1e-4;
 
-/// One slice of a light's view.
+/// One slice of a light's view, or one face of a point light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cascade {
-    /// View depth up to which points belong to it, in metres; infinite for the last.
+    /// View depth up to which points belong to it, in metres; infinite for the last, and for faces.
     pub depth_end: f64,
-    /// Its map; `None` where nothing on screen is in the slice.
+    /// Its map; `None` where nothing on screen is in it.
     pub fit: Option<Fit>,
 }
 
 /// The slices of a light from the nearest on, each with its fit. Only a fitted directional light is split: a spot has one
-/// slice, and so has a map that covers the scene. Empty where nothing that the camera sees can be in shadow.
+/// slice, and so has a map that covers the scene. Empty where nothing that the camera sees can be in shadow. A point light
+/// has its six faces in their place, in the order of [`Face::ALL`].
 ///
 /// # Errors
 /// As [`fit`] and [`Splits::checked`].
@@ -44,6 +46,11 @@ pub fn cascades(
     splits: &Splits,
 ) -> Result<Vec<Cascade>, Error> {
     let (camera, scene, splits) = (camera.checked()?, scene.checked()?, splits.checked()?);
+    if let Light::Point { .. } = light {
+        let of_face =
+            |face| Ok(Cascade { depth_end: f64::INFINITY, fit: fit_face(&camera, &scene, light, face, fitted)? });
+        return Face::ALL.into_iter().map(of_face).collect();
+    }
     let count = slices_of(light, fitted, &splits);
     if count == 1 {
         let whole = fit(&camera, &scene, light, fitted)?;
@@ -64,10 +71,14 @@ pub fn cascades(
     Ok(slices)
 }
 
-/// How many slices [`cascades`] makes of this light at most.
+/// How many slices or faces [`cascades`] makes of this light at most.
 #[must_use]
 pub fn slices_of(light: &Light, fitted: bool, splits: &Splits) -> u32 {
-    if fitted && matches!(light, Light::Directional { .. }) { splits.count } else { 1 }
+    match light {
+        Light::Directional { .. } if fitted => splits.count,
+        Light::Directional { .. } | Light::Spot { .. } => 1,
+        Light::Point { .. } => Face::ALL.len() as u32,
+    }
 }
 
 /// Smallest and largest view depth of the scene's box on screen: the potential receivers of directional light.

@@ -23,6 +23,9 @@ pub enum Error {
         /// What is allowed, in words.
         allowed: &'static str,
     },
+    /// A point light where one map is made.
+    #[error("the light is a point, which has six faces with a map each; allowed is a directional light or a spot")]
+    PointLight,
     /// A field of a relation file that is missing or outside of what is allowed.
     #[error("relation file: field \"{field}\" is {found}; allowed is {allowed}")]
     Field {

@@ -12,7 +12,8 @@
 //! ```
 //! and for parallel light of half angle `h` the same triangles: `r_search = (z_r - z_n) tan h`, `r_filter = (z_r - z_b)
 //! tan h`. All are radii; 5.8's `w` is the light's radius. The filter is no narrower than `radius_min_world` (6.2), nor
-//! the search, since it must find what the filter reaches. "In front of the receiver" means of its tangent plane at the
+//! the search, since it must find what the filter reaches. Under a point light discs are those across the ray, which
+//! [`ReceiverPlane::on_plane`] puts on the plane. "In front of the receiver" means of its tangent plane at the
 //! tap.
 
 use glam::DVec2;
@@ -23,7 +24,7 @@ use crate::kernel::{poisson_disc, square_taps};
 use crate::light::Light;
 use crate::settings::Filter;
 
-/// Depth of the nearest occluder that a spot's search is made for, as a share of the receiver's depth: its penumbra is
+/// Depth of the nearest occluder that a lamp's search is made for, as a share of the receiver's depth: its penumbra is
 /// four times the lamp in radius.
 pub const SEARCH_SHARE: f64 = 0.2;
 
@@ -83,7 +84,7 @@ impl Default for Taps {
 /// The occluders that a search found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blockers {
-    /// z_b, mean depth of the taps in front of the receiver, in metres.
+    /// z_b, mean depth of the taps in front of the receiver, in metres; of [`ReceiverPlane::depth_along_ray`].
     pub mean_depth: f64,
     /// Number of taps in front of the receiver, at least 1.
     pub count: usize,
@@ -127,7 +128,7 @@ pub fn pcf(
     let lit: f64 = taps
         .iter()
         .map(|&tap| {
-            let offset = tap_offset(tap, radius_world, rotation);
+            let offset = plane.on_plane(tap_offset(tap, radius_world, rotation));
             lookup(offset, plane.depth_at(offset))
         })
         .sum();
@@ -146,9 +147,9 @@ pub fn blocker_search(
     let mut sum = 0.0;
     let mut count = 0;
     for &tap in taps {
-        let offset = tap_offset(tap, search_radius_world, rotation);
+        let offset = plane.on_plane(tap_offset(tap, search_radius_world, rotation));
         if let Some(depth) = depth_at(offset).filter(|&depth| depth < plane.depth_at(offset)) {
-            sum += depth;
+            sum += plane.depth_along_ray(depth, offset);
             count += 1;
         }
     }
@@ -164,7 +165,7 @@ pub fn blocker_search(
 pub fn search_radius_world(fit: &Fit, receiver_depth: f64) -> f64 {
     let nearest = match fit.light {
         Light::Directional { .. } => fit.depth_near,
-        Light::Spot { .. } => fit.depth_near.max(SEARCH_SHARE * receiver_depth),
+        Light::Spot { .. } | Light::Point { .. } => fit.depth_near.max(SEARCH_SHARE * receiver_depth),
     };
     filter_radius_world(fit, receiver_depth, nearest)
 }
@@ -176,7 +177,9 @@ pub fn filter_radius_world(fit: &Fit, receiver_depth: f64, blocker_depth: f64) -
     let gap = (receiver_depth - blocker_depth).max(0.0);
     match fit.light {
         Light::Directional { half_angle, .. } => gap * half_angle.tan(),
-        Light::Spot { radius_world, .. } => radius_world * gap / blocker_depth * fit.reference_depth() / receiver_depth,
+        Light::Spot { radius_world, .. } | Light::Point { radius_world, .. } => {
+            radius_world * gap / blocker_depth * fit.reference_depth() / receiver_depth
+        }
     }
 }
 

@@ -8,7 +8,7 @@
 //!
 //! Reference plane: lengths sideways (radius, texel, extent) are measured on it. All planes are alike under directional
 //! light; under a spot it is the near plane, which depends on the light and the scene but not on the observer, so that
-//! a radius keeps its meaning while the camera moves. Deviation from Eq. 3.6: casters are taken in the whole column of
+//! a radius keeps its meaning while the camera moves. The faces of a point light have it in common. Deviation from Eq. 3.6: casters are taken in the whole column of
 //! the map, not in the hull of PSR and the light, because taps reach beyond PSR.
 
 mod frame;
@@ -22,6 +22,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 use crate::aabb::Aabb;
 use crate::camera::Camera;
 use crate::error::Error;
+use crate::face::Face;
 use crate::light::Light;
 use crate::polyhedron::Polyhedron;
 pub(crate) use frame::Frame;
@@ -47,6 +48,8 @@ const DEPTH_RANGE_OF_SIZE: f64 = 1e-2;
 pub struct Fit {
     /// The light, its direction normalised.
     pub light: Light,
+    /// The face of a point light; `None` of other lights.
+    pub face: Option<Face>,
     /// World to light space: a rigid motion, the light looks along -z.
     pub light_from_world: DMat4,
     /// Width and height of the map's box at the reference plane, in metres.
@@ -66,8 +69,31 @@ pub struct Fit {
 /// (spot) as a square. `None` where nothing that the camera sees lies in the light's volume: no map is needed.
 ///
 /// # Errors
-/// Names a value of camera, scene or light that is out of range.
+/// Names a value of camera, scene or light that is out of range; a point light, which has a [`fit_face`] for each face.
 pub fn fit(camera: &Camera, scene: &Aabb, light: &Light, fitted: bool) -> Result<Option<Fit>, Error> {
+    if let Light::Point { .. } = light {
+        return Err(Error::PointLight);
+    }
+    fit_part(camera, scene, light, None, fitted)
+}
+
+/// The same of one face of a point light; other lights have no faces, and are fitted as a whole. With `fitted` off the map
+/// is the face.
+///
+/// # Errors
+/// Names a value of camera, scene or light that is out of range.
+pub fn fit_face(camera: &Camera, scene: &Aabb, light: &Light, face: Face, fitted: bool) -> Result<Option<Fit>, Error> {
+    let face = matches!(light, Light::Point { .. }).then_some(face);
+    fit_part(camera, scene, light, face, fitted)
+}
+
+fn fit_part(
+    camera: &Camera,
+    scene: &Aabb,
+    light: &Light,
+    face: Option<Face>,
+    fitted: bool,
+) -> Result<Option<Fit>, Error> {
     let (camera, scene, light) = (camera.checked()?, scene.checked()?, light.checked()?);
     if scene.is_empty() {
         return Ok(None);
@@ -75,7 +101,7 @@ pub fn fit(camera: &Camera, scene: &Aabb, light: &Light, fitted: bool) -> Result
     // About the scene's middle, so that a scene far from the world's origin keeps its precision.
     let origin = scene.center();
     let local = Polyhedron::from_corners(scene.corners().map(|p| p - origin));
-    let frame = Frame::new(light, origin);
+    let frame = Frame::new(light, face, origin);
     let Some((lit, near_lit, far_lit)) = frame.lit_part(&local) else {
         return Ok(None);
     };
@@ -95,7 +121,7 @@ pub fn fit(camera: &Camera, scene: &Aabb, light: &Light, fitted: bool) -> Result
 pub(crate) fn fit_bodies(scene: &Aabb, light: Light, bodies: &[Polyhedron]) -> Option<Fit> {
     let origin = scene.center();
     let local = Polyhedron::from_corners(scene.corners().map(|p| p - origin));
-    let frame = Frame::new(light, origin);
+    let frame = Frame::new(light, None, origin);
     let (_, near_lit, _) = frame.lit_part(&local)?;
     let bodies: Vec<&Polyhedron> = bodies.iter().filter(|body| !body.is_empty()).collect();
     let far = bodies.iter().map(|body| frame.depth_range(body).1).reduce(f64::max)?;
@@ -118,6 +144,7 @@ fn around(
     let side = (square.1 - square.0).max_element().max(smallest);
     let mut fit = Fit {
         light: frame.light,
+        face: frame.face,
         light_from_world: frame.light_from_world,
         extent_world,
         scale: side / extent_world,
@@ -146,12 +173,12 @@ impl Fit {
         -self.light_from_world.transform_point3(position_world).z
     }
 
-    /// Length at the reference plane of one metre sideways at `depth`: 1, or for a spot `reference depth / depth`.
+    /// Length at the reference plane of one metre sideways at `depth`: 1, or for a lamp `reference depth / depth`.
     #[must_use]
     pub fn reference_from_depth(&self, depth: f64) -> f64 {
         match self.light {
             Light::Directional { .. } => 1.0,
-            Light::Spot { .. } => self.reference_depth() / depth,
+            Light::Spot { .. } | Light::Point { .. } => self.reference_depth() / depth,
         }
     }
 
@@ -208,7 +235,7 @@ impl Fit {
         let linear = (depth - self.depth_near) / (self.depth_far - self.depth_near);
         match self.light {
             Light::Directional { .. } => linear,
-            Light::Spot { .. } => linear * self.depth_far / depth,
+            Light::Spot { .. } | Light::Point { .. } => linear * self.depth_far / depth,
         }
     }
 
@@ -218,7 +245,9 @@ impl Fit {
         let range = self.depth_far - self.depth_near;
         match self.light {
             Light::Directional { .. } => self.depth_near + depth_ndc * range,
-            Light::Spot { .. } => self.depth_far * self.depth_near / (self.depth_far - depth_ndc * range),
+            Light::Spot { .. } | Light::Point { .. } => {
+                self.depth_far * self.depth_near / (self.depth_far - depth_ndc * range)
+            }
         }
     }
 
@@ -280,7 +309,7 @@ impl Fit {
                 DVec4::new(shift.x, shift.y, -near / (far - near), 1.0),
             ),
             // w = depth = -z; x_clip = (x ref / depth - center) 2 / extent * depth.
-            Light::Spot { .. } => DMat4::from_cols(
+            Light::Spot { .. } | Light::Point { .. } => DMat4::from_cols(
                 DVec4::new(scale.x * self.reference_depth(), 0.0, 0.0, 0.0),
                 DVec4::new(0.0, scale.y * self.reference_depth(), 0.0, 0.0),
                 DVec4::new(-shift.x, -shift.y, -far / (far - near), -1.0),
@@ -292,7 +321,7 @@ impl Fit {
     /// Smallest depth of the scene's box within the column of the map, under directional light.
     fn first_caster(&self) -> f64 {
         let origin = self.scene.center();
-        let frame = Frame::new(self.light, origin);
+        let frame = Frame::new(self.light, self.face, origin);
         let half = 0.5 * self.extent_world;
         let column = frame.column(self.center - half, self.center + half);
         let casters = Polyhedron::from_corners(self.scene.corners().map(|p| p - origin)).clip_all(&column);

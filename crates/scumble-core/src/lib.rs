@@ -4,7 +4,8 @@
 //! that a light asks for decides how many texels its map needs, and a soft shadow needs few. One frame:
 //!
 //! 1. [`fit`] limits the light's view to what the observer sees: [`Fit`], with its extent L in x and y. [`cascades`] makes
-//!    one for each of the slices into which [`Splits`] cuts the view; all that follows is done for each.
+//!    one for each of the slices into which [`Splits`] cuts the view, or for each [`Face`] of a point light; all that
+//!    follows is done for each.
 //! 2. The screen's demand is its smallest filter radius r, [`Demand`], or a low quantile, [`Statistic`]: the filter's own
 //!    radius for percentage closer filtering, measured from the last map for soft shadows.
 //! 3. [`Relation`] turns that into texels of r / c, and N = c L / r of them, x and y apart.
@@ -49,6 +50,7 @@ mod bias;
 mod camera;
 mod cascade;
 mod error;
+mod face;
 pub mod filter;
 mod fit;
 mod kernel;
@@ -69,8 +71,9 @@ pub use bias::{Bias, ReceiverPlane};
 pub use camera::Camera;
 pub use cascade::{Cascade, cascades, slices_of};
 pub use error::Error;
+pub use face::Face;
 pub use filter::Taps;
-pub use fit::{Fit, fit};
+pub use fit::{Fit, fit, fit_face};
 pub use kernel::{half_plane_under_disc, pixel_hash, poisson_disc, rotation_angle, square_taps};
 pub use light::Light;
 pub use moments::VarianceBound;

@@ -2,13 +2,14 @@
 //!
 //! Light space is a rigid motion of the world: right-handed, the light looks along -z. Depth is the distance along the
 //! light's direction, positive away from the light; a spot's depth starts at its position, a directional light's at the
-//! plane through the world's origin.
+//! plane through the world's origin. A point light has a light space for each of its [faces](crate::Face).
 
 use glam::dcamera::rh::view;
 use glam::{DMat4, DVec3};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check, direction, finite, not_negative};
+use crate::face::{Face, OVERLAP};
 use crate::polyhedron::HalfSpace;
 
 /// Sides of the pyramid around a spot's cone. Circumscribed: it lets in at most 1 / cos(pi / 16) - 1 = 2 % beyond the
@@ -36,6 +37,16 @@ pub enum Light {
         cone_half_angle: f64,
         /// Radius of the disc, in metres.
         radius_world: f64,
+    },
+    /// A sphere that shines to all sides, such as a bulb. It has a map for each of six [faces](crate::Face).
+    Point {
+        /// Middle of the sphere, in metres.
+        position: DVec3,
+        /// Radius of the sphere, in metres. It is taken for the disc that it shows to the receiver.
+        radius_world: f64,
+        /// What is farther away along an axis of the world has no shadow, in metres; infinite for none. A shorter reach lets
+        /// nearer things cast: see [`Fit::depth_near`](crate::Fit::depth_near).
+        reach_world: f64,
     },
 }
 
@@ -68,45 +79,79 @@ impl Light {
                 let axis = direction("the light's direction", axis)?;
                 Ok(Self::Spot { position, direction: axis, cone_half_angle, radius_world })
             }
+            Self::Point { position, radius_world, reach_world } => {
+                finite("the light's position", position)?;
+                not_negative("the light's radius_world", radius_world)?;
+                check("the light's reach_world", reach_world, reach_world > 0.0, "a number above 0, or infinity")?;
+                Ok(*self)
+            }
         }
     }
 
-    /// Direction in which the light (a spot's axis) shines, as given.
+    /// Direction in which the light (a spot's axis) shines, as given; of a point light that of its last face, against z.
     #[must_use]
     pub fn direction(&self) -> DVec3 {
+        self.direction_of(None)
+    }
+
+    /// The same of a face of a point light.
+    pub(crate) fn direction_of(&self, face: Option<Face>) -> DVec3 {
         match *self {
             Self::Directional { direction, .. } | Self::Spot { direction, .. } => direction,
+            Self::Point { .. } => face.unwrap_or(Face::NegativeZ).axis(),
         }
     }
 
-    /// World to light space. The orientation depends on the light alone, so texels keep theirs while the observer moves
-    /// (course of Eisemann et al., 3.2.1). The world's y is up in the map, or z where the light shines within 8 degrees
-    /// of y.
+    /// Where the light is, in metres; `None` of a directional light.
+    #[must_use]
+    pub fn position(&self) -> Option<DVec3> {
+        match *self {
+            Self::Directional { .. } => None,
+            Self::Spot { position, .. } | Self::Point { position, .. } => Some(position),
+        }
+    }
+
+    /// World to light space, of a point light to that of its last face. The orientation depends on the light alone, so
+    /// texels keep theirs while the observer moves (course of Eisemann et al., 3.2.1). The world's y is up in the map, or z
+    /// where the light shines within 8 degrees of y.
     #[must_use]
     pub fn light_from_world(&self) -> DMat4 {
-        let eye = match *self {
-            Self::Directional { .. } => DVec3::ZERO,
-            Self::Spot { position, .. } => position,
-        };
-        let along = self.direction().normalize();
+        self.light_from_world_of(None)
+    }
+
+    /// The same of a face of a point light.
+    pub(crate) fn light_from_world_of(&self, face: Option<Face>) -> DMat4 {
+        let eye = self.position().unwrap_or(DVec3::ZERO);
+        let along = self.direction_of(face).normalize();
         let up = if along.y.abs() > 0.99 { DVec3::Z } else { DVec3::Y };
         view::look_to_mat4(eye, along, up)
     }
 
     /// The light's volume L about `origin`: all of space for a directional light, a pyramid of 16 sides around the cone
-    /// for a spot.
-    pub(crate) fn half_spaces(&self, origin: DVec3) -> Vec<HalfSpace> {
-        let Self::Spot { position, cone_half_angle, .. } = *self else {
-            return Vec::new();
-        };
-        let world_from_light = self.light_from_world().transpose();
-        let apex = position - origin;
-        let side = |i: u32| {
-            let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / f64::from(CONE_SIDES)).sin_cos();
-            let inward = DVec3::new(-cos, -sin, -cone_half_angle.tan());
-            HalfSpace::through(apex, world_from_light.transform_vector3(inward))
-        };
-        (0..CONE_SIDES).map(side).collect()
+    /// for a spot, a face's pyramid as far as it reaches for a point light.
+    pub(crate) fn half_spaces(&self, face: Option<Face>, origin: DVec3) -> Vec<HalfSpace> {
+        let world_from_light = self.light_from_world_of(face).transpose();
+        let side = |through: DVec3, inward| HalfSpace::through(through, world_from_light.transform_vector3(inward));
+        match *self {
+            Self::Directional { .. } => Vec::new(),
+            Self::Spot { position, cone_half_angle, .. } => {
+                let side_of_cone = |i: u32| {
+                    let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / f64::from(CONE_SIDES)).sin_cos();
+                    side(position - origin, DVec3::new(-cos, -sin, -cone_half_angle.tan()))
+                };
+                (0..CONE_SIDES).map(side_of_cone).collect()
+            }
+            Self::Point { position, reach_world, .. } => {
+                let apex = position - origin;
+                let mut sides: Vec<HalfSpace> = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y]
+                    .map(|out| side(apex, -out - DVec3::Z * (1.0 + OVERLAP)))
+                    .to_vec();
+                if reach_world.is_finite() {
+                    sides.push(side(apex + reach_world * self.direction_of(face), DVec3::Z));
+                }
+                sides
+            }
+        }
     }
 
     /// Direction towards the light from `position_world`, unit length.
@@ -114,7 +159,8 @@ impl Light {
     pub fn towards_light(&self, position_world: DVec3) -> DVec3 {
         match *self {
             Self::Directional { direction, .. } => -direction.normalize(),
-            Self::Spot { position, .. } => (position - position_world).normalize_or(-self.direction().normalize()),
+            Self::Spot { position, direction, .. } => (position - position_world).normalize_or(-direction.normalize()),
+            Self::Point { position, .. } => (position - position_world).normalize_or(DVec3::Y),
         }
     }
 }
@@ -137,13 +183,36 @@ mod tests {
     fn a_spot_lets_in_its_cone_and_little_more() {
         let axis = DVec3::new(0.2, -1.0, 0.4);
         let light = Light::Spot { position: DVec3::ONE, direction: axis, cone_half_angle: 0.5, radius_world: 0.1 };
-        let sides = light.half_spaces(DVec3::ZERO);
+        let sides = light.half_spaces(None, DVec3::ZERO);
         let across = axis.any_orthogonal_vector().normalize();
         for turn in 0..64 {
             let around = glam::DQuat::from_axis_angle(axis.normalize(), f64::from(turn) * 0.1) * across;
             let at = |angle: f64| DVec3::ONE + 3.0 * (axis.normalize() + angle.tan() * around);
             assert!(sides.iter().all(|s| s.distance(at(0.499)) > 0.0));
             assert!(sides.iter().any(|s| s.distance(at(0.512)) < 0.0));
+        }
+    }
+
+    #[test]
+    fn a_face_lets_in_its_own_directions_as_far_as_the_light_reaches() {
+        let light = Light::Point { position: DVec3::ONE, radius_world: 0.1, reach_world: 4.0 };
+        for i in 1..1000 {
+            let t = f64::from(i);
+            let ray = DVec3::new(
+                (t * 0.618_033_9).fract() - 0.5,
+                (t * 0.754_877_7).fract() - 0.5,
+                (t * 0.569_840_3).fract() - 0.5,
+            );
+            let ray = ray / ray.abs().max_element();
+            // Between a face and its neighbours the overlap is of both.
+            if ray.abs().to_array().iter().filter(|side| **side > 1.0 - 2.0 * OVERLAP).count() > 1 {
+                continue;
+            }
+            for face in Face::ALL {
+                let holds = |p: DVec3| light.half_spaces(Some(face), DVec3::NEG_X).iter().all(|s| s.distance(p) >= 0.0);
+                assert_eq!(holds(light.position().unwrap() + 3.9 * ray + DVec3::X), face == Face::of(ray), "{ray}");
+                assert!(!holds(light.position().unwrap() + 4.1 * ray + DVec3::X));
+            }
         }
     }
 
@@ -156,6 +225,8 @@ mod tests {
             cone_half_angle,
             radius_world,
         };
+        let bulb = |radius_world, reach_world| Light::Point { position: DVec3::ZERO, radius_world, reach_world };
+        assert!(bulb(0.0, f64::INFINITY).checked().is_ok());
         let wrong = [
             (sun(DVec3::ZERO, 0.1), "direction"),
             (sun(DVec3::new(f64::NAN, 0.0, 1.0), 0.1), "direction"),
@@ -164,6 +235,9 @@ mod tests {
             (lamp(0.0, 0.1), "cone_half_angle"),
             (lamp(1.5, 0.1), "cone_half_angle"),
             (lamp(0.5, f64::INFINITY), "radius_world"),
+            (bulb(-0.1, 5.0), "radius_world"),
+            (bulb(0.1, 0.0), "reach_world"),
+            (bulb(0.1, f64::NAN), "reach_world"),
         ];
         for (light, name) in wrong {
             assert!(light.checked().unwrap_err().to_string().contains(name), "{name}");

@@ -86,7 +86,7 @@ impl Seen {
         scene: &Polyhedron,
         origin: DVec3,
     ) -> Result<Option<Vec<Polyhedron>>, Error> {
-        let (then, frame) = (self.camera.checked()?, Frame::new(self.light.checked()?, origin));
+        let (then, frame) = (self.camera.checked()?, Frame::new(self.light.checked()?, None, origin));
         let (eye, forward) = (then.eye - origin, then.forward());
         let farthest = scene.vertices().map(|p| forward.dot(p - eye)).fold(0.0, f64::max);
         let view = scene.clip_all(&camera.half_spaces(origin));

@@ -2,13 +2,15 @@
 //
 // Spaces: *world* is relative to the origin given to `Shadows`; *light* is that of `scumble_core::Light` with z turned
 // round, so that z is the depth along the light; the *reference plane* is any plane across a directional light and the
-// near plane of a spot; *map depth* is what the map holds, 0 at `depth_near` and 1 at `depth_far`; *texels* count from
+// near plane of a spot and of the faces of a point light; *map depth* is what the map holds, 0 at `depth_near` and 1 at `depth_far`; *texels* count from
 // the corner of a map's viewport.
 // Each struct has a `#[repr(C)]` twin in `src/uniforms.rs`; a test compares offsets and constants.
 
 const SHADOW_LIGHTS_MAX: u32 = 4u;
 const SHADOW_CASCADES_MAX: u32 = 4u;
-const SHADOW_MAPS_MAX: u32 = 16u;
+// Maps of one light: its cascades, or the faces of a point light.
+const SHADOW_LIGHT_MAPS_MAX: u32 = 6u;
+const SHADOW_MAPS_MAX: u32 = 24u;
 const SHADOW_PCF_TAPS: u32 = 25u;
 const SHADOW_BLOCKER_TAPS: u32 = 16u;
 
@@ -31,10 +33,10 @@ struct ShadowMap {
     // Light-space depths of map depth 0 and 1, world length; under a directional light counted from the world's origin.
     depth_near: f32,
     depth_far: f32,
-    // 1 for a spot, 0 for a directional light.
+    // 1 for a spot and for a face of a point light, 0 for a directional light.
     is_spot: u32,
     layer: u32,
-    // Tangent of the half angle of a directional light; radius of a spot's disc, world length.
+    // Tangent of the half angle of a directional light; radius of a lamp, world length.
     light_size: f32,
     // Radius of the fixed kernel at the reference plane, world length.
     radius_world: f32,
@@ -58,24 +60,29 @@ struct ShadowMap {
     moment_block: vec2f,
     // First bin of the histogram of radii that the demand pass makes.
     first_bin: u32,
-    padding: u32,
+    // 1 for a point light, whose kernel is a disc across the ray.
+    is_sphere: u32,
     // Half of the box, in clip space, in which points are looked up here and not in the light's net.
     inner: vec2f,
-    more_padding: vec2u,
+    padding: vec2u,
 }
 
-// The maps of a light: consecutive, one for each slice of the view from the nearest on.
+// The maps of a light: consecutive, one for each slice of the view from the nearest on, or for each face of a point light.
 struct ShadowLight {
     // View depths at which the first slices end; infinite (the largest float) from the last slice on.
     slice_ends: vec3f,
     // 0 where the plan has no such light.
     map_count: u32,
+    // Directions of x and y of light space, of a directional light.
+    across_x: vec3f,
     first_map: u32,
+    across_y: vec3f,
     // The map of what no slice's map was fitted to; SHADOW_NO_MAP where slices are fitted to the whole view.
     net_map: u32,
-    // Directions of x and y of light space.
-    across_x: vec3f,
-    across_y: vec3f,
+    // Of a point light.
+    position: vec3f,
+    // 1 for a point light.
+    is_point: u32,
 }
 
 struct ShadowLights {

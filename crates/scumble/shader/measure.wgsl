@@ -63,9 +63,9 @@ const NO_PLANE: f32 = 1e30;
 // What each measured pixel is, SHADOW_BLOCK_..., a layer a light.
 @group(1) @binding(3) var corners: texture_storage_2d_array<r32uint, write>;
 
-// By slice of the light; the bins of all slices one after the other; four minima a band.
-var<workgroup> group_minimum: array<atomic<u32>, SHADOW_CASCADES_MAX>;
-var<workgroup> group_counts: array<atomic<u32>, SHADOW_CASCADES_MAX * MEASURE_BINS>;
+// By map of the light; the bins of all maps one after the other; four minima a band.
+var<workgroup> group_minimum: array<atomic<u32>, SHADOW_LIGHT_MAPS_MAX>;
+var<workgroup> group_counts: array<atomic<u32>, SHADOW_LIGHT_MAPS_MAX * MEASURE_BINS>;
 var<workgroup> group_receivers: array<atomic<u32>, 4u * MEASURE_BANDS>;
 
 fn ray_at(pixel: vec2f) -> vec3f {
@@ -227,7 +227,7 @@ fn measure_demand(
             atomicMin(&group_minimum[slice], found.radius_bits);
             atomicAdd(&group_counts[slice * MEASURE_BINS + bin_of(found.map, found.radius_bits)], 1u);
         }
-        if map_count > 1u && !found.turns_back {
+        if map_count > 1u && shadow_lights.lights[light].is_point == 0u && !found.turns_back {
             add_receivers(light, pixel, size);
         }
     }

@@ -48,7 +48,7 @@ fn shadow_find_blockers(map: u32, receiver: ShadowReceiver, radius_plane: f32, r
         let is_inside = all(texel >= vec2f(0.0)) && all(texel < viewport);
         if is_inside && depth < shadow_depth_at(receiver, offset) {
             count += 1u;
-            sum += shadow_light_depth(map, depth);
+            sum += shadow_light_depth(map, depth) * (1.0 + dot(receiver.depth_share, offset));
         }
     }
     return ShadowBlockers(count, select(receiver.light_depth, sum / f32(max(count, 1u)), count > 0u));

@@ -21,6 +21,11 @@ struct ShadowReceiver {
     light_depth: f32,
     // Larger side of a texel at the receiver, world length.
     texel_world: f32,
+    // s of a point light; zero of others, whose kernel is a disc of the reference plane.
+    ray: vec2f,
+    // Change of a blocker's depth along the ray by its depth, per world length at the reference plane; zero likewise. CPU
+    // twin: `scumble_core::ReceiverPlane::depth_along_ray`.
+    depth_share: vec2f,
 }
 
 // Light-space depth of a map depth.
@@ -64,6 +69,8 @@ fn shadow_receiver(map: u32, position_world: vec3f, normal_world: vec3f) -> Shad
     receiver.slope = tangent * depth_per_length;
     if shadow_lights.maps[map].is_spot == 1u {
         tangent = shadow_tangent(m.xy, dot(m, vec3f(p.xy / p.z, 1.0)), slope_max);
+        receiver.ray = select(vec2f(0.0), p.xy / p.z, shadow_lights.maps[map].is_sphere == 1u);
+        receiver.depth_share = receiver.ray / (near * (1.0 + dot(receiver.ray, receiver.ray)));
         texel *= p.z / near;
         receiver.slope = tangent * (far / ((far - near) * p.z));
         depth_per_length = near * far / ((far - near) * p.z * p.z);

@@ -31,7 +31,10 @@ fn shadow_filtered(map: u32, receiver: ShadowReceiver, frag_coord: vec2f) -> Sha
         return ShadowSample(visibility, radius, select(0u, 2u, visibility < 1.0));
     }
 
-    let rotation = shadow_rotation(vec2u(frag_coord));
+    var rotation = shadow_rotation(vec2u(frag_coord));
+    if shadow_lights.maps[map].is_sphere == 1u {
+        rotation = shadow_stretch(receiver.ray) * rotation;
+    }
     if kind == SHADOW_FILTER_PCF {
         let radius = shadow_lights.maps[map].radius_world;
         let visibility = shadow_pcf(map, receiver, radius, rotation);

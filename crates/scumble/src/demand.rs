@@ -51,15 +51,15 @@ pub fn demand(settings: &Settings, filter: &Filter, fit: &Fit, measured: Option<
     }
 }
 
-/// What a measured radius is divided by to outlive its fit: the reference depth of a spot, 1 otherwise.
+/// What a measured radius is divided by to outlive its fit: the reference depth of a lamp, 1 otherwise.
 pub fn measure_scale(fit: &Fit) -> f64 {
     match fit.light {
         Light::Directional { .. } => 1.0,
-        Light::Spot { .. } => fit.reference_depth(),
+        Light::Spot { .. } | Light::Point { .. } => fit.reference_depth(),
     }
 }
 
-/// What the slices of one light are asked for, of demands with the extents of their maps in metres. A slice without a
+/// What the slices or faces of one light are asked for, of demands with the extents of their maps in metres. A slice without a
 /// penumbra is lent the demand of the nearest slice that has one: what enters it comes from there. It gets that slice's
 /// texel, but no more texels. Else a slice that nothing has been in yet would stay at the size it started with.
 pub fn lent(asked: &[(Demand, f64)]) -> Vec<Demand> {

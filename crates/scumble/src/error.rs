@@ -60,8 +60,8 @@ pub enum Error {
     },
     /// More maps than were allocated.
     #[error(
-        "the plan needs {needed} maps, one for a spot and one for each of a directional light's cascades, but \
-         {allocated} were allocated (`Options::maps`)"
+        "the plan needs {needed} maps, one for a spot, one for each of a directional light's cascades and six for a point \
+         light, but {allocated} were allocated (`Options::maps`)"
     )]
     TooManyMaps {
         /// Maps of the lights in the call.

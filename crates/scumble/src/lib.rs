@@ -32,7 +32,8 @@
 //!
 //! The caller keeps device, queue, encoder, scene and camera. This crate never submits, never waits, and allocates at
 //! creation, at the first `measure`, and when the prepass changes its size. A directional light has one map or a cascade of
-//! them ([`Options::cascades`]), a spot has one; no cube maps.
+//! them ([`Options::cascades`]), a spot has one, a point light up to six: faces of 90 degrees and what its filter reaches
+//! beyond them, each fitted to what is seen in it and with a size of its own, none where nothing is seen.
 
 mod bindings;
 mod blocks;
@@ -59,11 +60,11 @@ pub use fragments::{FragmentDemand, FragmentsStorage};
 pub use measure::NOTHING as MEASURE_NOTHING;
 pub use options::{Options, SizeChoice};
 pub use plan::filter_constant;
-pub use scumble_core::{self, Aabb, Camera, Filter, Light, Settings, Splits, Statistic};
+pub use scumble_core::{self, Aabb, Camera, Face, Filter, Light, Settings, Splits, Statistic};
 pub use shaders::{
     CLASSIFY_WGSL, CLEAR_WGSL, FILTER_OVERRIDE, fragments_wgsl, measure_wgsl, shadow_wgsl, vsm_box_wgsl,
     vsm_reduce_wgsl,
 };
 pub use shadows::Shadows;
-pub use uniforms::{BLOCKER_TAPS, CASCADES_MAX, LIGHTS_MAX, MAPS_MAX, MOMENT_TAPS, PCF_TAPS};
+pub use uniforms::{BLOCKER_TAPS, CASCADES_MAX, LIGHT_MAPS_MAX, LIGHTS_MAX, MAPS_MAX, MOMENT_TAPS, PCF_TAPS};
 pub use view::{Plan, View};

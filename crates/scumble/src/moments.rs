@@ -99,7 +99,7 @@ pub fn blocks_of(texel_world: DVec2, radius_world: f64) -> [u32; 2] {
 fn near_over_far(fit: &Fit) -> f64 {
     match fit.light {
         Light::Directional { .. } => 1.0,
-        Light::Spot { .. } => fit.depth_near / fit.depth_far,
+        Light::Spot { .. } | Light::Point { .. } => fit.depth_near / fit.depth_far,
     }
 }
 

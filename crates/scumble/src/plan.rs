@@ -1,6 +1,6 @@
 //! From camera, scene and lights to the maps of a frame. Pure: no GPU, and the state of the sizes is copied.
 //!
-//! By light: slices of the view, and for each: fit; border, so that the taps of the outermost receiver fall into the map;
+//! By light: slices of the view, or the faces of a point light, and for each: fit; border, so that the taps of the outermost receiver fall into the map;
 //! [demand](crate::demand); texel, and the box on its lattice; matrices and uniforms. The maps of a light are consecutive
 //! layers, of which those that nothing on screen needs stay empty.
 
@@ -40,7 +40,7 @@ fn filter_kind(filter: &Filter) -> u32 {
 pub struct MapState {
     /// Its texel.
     pub policy: TexelPolicy,
-    /// Newest measurement: radius over the reference depth of a spot, radius for other lights; `Some(None)` for no
+    /// Newest measurement: radius over the reference depth of a lamp, radius for a directional light; `Some(None)` for no
     /// penumbra on screen, `None` before the first and where the map was not drawn.
     pub measured: Option<Option<f64>>,
 }
@@ -74,7 +74,7 @@ pub fn plan(
     for (index, (light, count)) in lights.iter().zip(counts).enumerate() {
         let seen = seen.get(index).and_then(Option::as_ref);
         let slices = slices(settings, options, &states[first as usize..], (camera, scene, light), seen)?;
-        plan.uniform.lights[index] = light_uniform(light, &slices, first, count);
+        plan.uniform.lights[index] = light_uniform(light, options.origin_world, &slices, first, count);
         for view in views_of_light(settings, options, &mut plan.policies, [index as u32, first], slices)? {
             plan.uniform.maps[view.layer as usize] = map_uniform(settings, options, &view);
             plan.views.push(view);
@@ -141,21 +141,23 @@ fn sized(
     Ok((fit, size))
 }
 
-fn light_uniform(light: &Light, slices: &[Slice], first_map: u32, map_count: u32) -> LightUniform {
+fn light_uniform(light: &Light, origin_world: DVec3, slices: &[Slice], first_map: u32, map_count: u32) -> LightUniform {
     let net_map = slices.iter().find(|slice| slice.is_net).map_or(NO_MAP, |net| first_map + net.slice);
     let mut slice_ends = [f32::MAX; CASCADES_MAX as usize - 1];
     for (end, slice) in slice_ends.iter_mut().zip(slices) {
         *end = (slice.depth_end as f32).min(f32::MAX);
     }
     let across = light.light_from_world().transpose();
+    let position = light.position().map_or(DVec3::ZERO, |position| position - origin_world);
     LightUniform {
         slice_ends,
         map_count,
-        first_map,
-        net_map,
         across_x: across.x_axis.truncate().as_vec3().to_array(),
+        first_map,
         across_y: across.y_axis.truncate().as_vec3().to_array(),
-        ..LightUniform::zeroed()
+        net_map,
+        position: position.as_vec3().to_array(),
+        is_point: u32::from(matches!(light, Light::Point { .. })),
     }
 }
 
@@ -172,7 +174,7 @@ fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUnifor
         // Depth along parallel light has no origin of its own: the shaders' is at their world's, so that f32 carries
         // it.
         Light::Directional { half_angle, .. } => (0, half_angle.tan(), fit.depth(options.origin_world)),
-        Light::Spot { radius_world, .. } => (1, radius_world, 0.0),
+        Light::Spot { radius_world, .. } | Light::Point { radius_world, .. } => (1, radius_world, 0.0),
     };
     let z_as_depth =
         DMat4::from_translation(DVec3::new(0.0, 0.0, -depth_of_zero)) * DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0));
@@ -204,9 +206,9 @@ fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUnifor
         bleeding_cut: settings.variance.bleeding_cut as f32,
         moment_block: blocks_of(texel_world, radius_world).map(|texels| texels as f32),
         first_bin: first_bin(fit),
-        padding: 0,
+        is_sphere: u32::from(fit.face.is_some()),
         inner: view.inner.as_vec2().to_array(),
-        more_padding: [0; 2],
+        padding: [0; 2],
     }
 }
 

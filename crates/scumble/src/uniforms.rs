@@ -3,14 +3,16 @@
 //! Field order, offsets and constants are those of the shaders; `tests/shaders.rs` compares them with naga's layouts.
 
 use bytemuck::{Pod, Zeroable};
-use scumble_core::{RadiusHistogram, Seen, Splits, Taps};
+use scumble_core::{Face, RadiusHistogram, Seen, Splits, Taps};
 
 /// Lights that one set of uniforms holds; `SHADOW_LIGHTS_MAX` of the shaders.
 pub const LIGHTS_MAX: u32 = 4;
-/// Maps of one light; `SHADOW_CASCADES_MAX` of the shaders.
+/// Maps of one directional light; `SHADOW_CASCADES_MAX` of the shaders.
 pub const CASCADES_MAX: u32 = Splits::COUNT_MAX;
+/// Maps of one light, a point light's faces; `SHADOW_LIGHT_MAPS_MAX` of the shaders.
+pub const LIGHT_MAPS_MAX: u32 = Face::ALL.len() as u32;
 /// Maps that one set of uniforms holds; `SHADOW_MAPS_MAX` of the shaders.
-pub const MAPS_MAX: u32 = LIGHTS_MAX * CASCADES_MAX;
+pub const MAPS_MAX: u32 = LIGHTS_MAX * LIGHT_MAPS_MAX;
 /// No map; `SHADOW_NO_MAP` of the shaders.
 pub const NO_MAP: u32 = u32::MAX;
 /// Taps of the filter kernel; `SHADOW_PCF_TAPS` of the shaders.
@@ -36,11 +38,11 @@ pub struct MapUniform {
     pub depth_near: f32,
     /// Light-space depth of map depth 1, likewise.
     pub depth_far: f32,
-    /// 1 for a spot, 0 for a directional light.
+    /// 1 for a spot and for a face of a point light, 0 for a directional light.
     pub is_spot: u32,
     /// Layer of the map texture.
     pub layer: u32,
-    /// Tangent of the half angle (directional) or disc radius in world length (spot).
+    /// Tangent of the half angle (directional) or radius in world length (lamps).
     pub light_size: f32,
     /// Radius of the fixed kernel at the reference plane, world length.
     pub radius_world: f32,
@@ -68,12 +70,12 @@ pub struct MapUniform {
     pub moment_block: [f32; 2],
     /// First bin of the histogram of radii; [`RadiusHistogram::first_bin`] of the map's extent.
     pub first_bin: u32,
-    /// Unused.
-    pub padding: u32,
+    /// 1 for a point light, whose kernel is a disc across the ray.
+    pub is_sphere: u32,
     /// Half of the box, in clip space, in which points are looked up here and not in the light's net.
     pub inner: [f32; 2],
     /// Unused.
-    pub more_padding: [u32; 2],
+    pub padding: [u32; 2],
 }
 
 /// One map as the passes of variance shadow maps see it; `Moments` of `shader/vsm_map.wgsl`.
@@ -92,7 +94,7 @@ pub struct MomentsUniform {
     pub padding: u32,
 }
 
-/// The maps of one light: consecutive, from the nearest slice on.
+/// The maps of one light: consecutive, from the nearest slice on, or those of a point light's faces.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct LightUniform {
@@ -100,20 +102,18 @@ pub struct LightUniform {
     pub slice_ends: [f32; CASCADES_MAX as usize - 1],
     /// 0 where the plan has no such light.
     pub map_count: u32,
-    /// Index of the nearest slice's map.
+    /// Direction of a directional light's x.
+    pub across_x: [f32; 3],
+    /// Index of the nearest slice's map, or the first face's.
     pub first_map: u32,
+    /// Direction of a directional light's y.
+    pub across_y: [f32; 3],
     /// Index of the net; [`NO_MAP`] where there is none.
     pub net_map: u32,
-    /// Unused.
-    pub padding: [u32; 2],
-    /// Direction of light space's x.
-    pub across_x: [f32; 3],
-    /// Unused.
-    pub padding_x: u32,
-    /// Direction of light space's y.
-    pub across_y: [f32; 3],
-    /// Unused.
-    pub padding_y: u32,
+    /// A point light's position relative to the origin.
+    pub position: [f32; 3],
+    /// 1 for a point light.
+    pub is_point: u32,
 }
 
 /// All lights and maps.

@@ -1,7 +1,7 @@
 //! One map of a frame, and the plan that holds them all: what to draw, where, and how large.
 
 use glam::{DVec2, DVec3, Mat4};
-use scumble_core::{Camera, Fit, Size, TexelPolicy};
+use scumble_core::{Camera, Face, Fit, Light, Size, TexelPolicy};
 
 use crate::uniforms::LightsUniform;
 
@@ -10,9 +10,9 @@ use crate::uniforms::LightsUniform;
 pub struct View {
     /// Number of the light in the call of `plan`, and of `shadow_visibility`.
     pub light: u32,
-    /// Number of the slice of the light's view, 0 the nearest.
+    /// Number of the slice of the light's view, 0 the nearest; of a point light that of the face, which `fit.face` names.
     pub slice: u32,
-    /// View depth at which the slice ends, in metres; infinite for the last.
+    /// View depth at which the slice ends, in metres; infinite for the last, and for faces.
     pub depth_end: f64,
     /// Layer of the map texture.
     pub layer: u32,
@@ -63,24 +63,29 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The maps to draw, in the order of the lights and their slices. A light that reaches nothing on screen has none, and
-    /// so has a slice of the view that holds nothing; they leave everything lit.
+    /// The maps to draw, in the order of the lights and their slices or faces. A light that reaches nothing on screen has
+    /// none, and so has a slice or a face that holds nothing; they leave everything lit.
     #[must_use]
     pub fn views(&self) -> &[View] {
         &self.views
     }
 
-    /// The maps of a light, from the nearest slice on.
+    /// The maps of a light, from the nearest slice on, or by face.
     pub fn views_of(&self, light: u32) -> impl Iterator<Item = &View> {
         self.views.iter().filter(move |view| view.light == light)
     }
 
     /// The map of a light that the shaders look a point of the world up in: that of the slice which its depth in the plan's
-    /// view lies in, or the net where that slice's map was not fitted to it. `None` where everything is lit.
+    /// view lies in, or the net where that slice's map was not fitted to it, or that of the face of a point light. `None` where
+    /// everything is lit.
     #[must_use]
     pub fn view_at(&self, light: u32, position_world: DVec3) -> Option<&View> {
-        let depth = (position_world - self.camera.eye).dot(self.camera.forward());
         let maps = self.uniform.lights.get(light as usize)?;
+        if let Light::Point { position, .. } = self.views_of(light).next()?.fit.light {
+            let face = Face::of(position_world - position);
+            return self.views_of(light).find(|view| view.fit.face == Some(face));
+        }
+        let depth = (position_world - self.camera.eye).dot(self.camera.forward());
         let slice = maps.slice_ends.iter().filter(|&&end| depth > f64::from(end)).count();
         let own = self.views_of(light).find(|view| view.slice as usize == slice);
         let Some(net) = self.views_of(light).find(|view| view.is_net) else { return own };

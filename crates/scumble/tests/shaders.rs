@@ -2,8 +2,8 @@
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use scumble::{
-    BLOCKER_TAPS, CASCADES_MAX, FILTER_OVERRIDE, LIGHTS_MAX, MAPS_MAX, PCF_TAPS, filter_constant, fragments_wgsl,
-    measure_wgsl, shadow_wgsl, vsm_box_wgsl, vsm_reduce_wgsl,
+    BLOCKER_TAPS, CASCADES_MAX, FILTER_OVERRIDE, LIGHT_MAPS_MAX, LIGHTS_MAX, MAPS_MAX, PCF_TAPS, filter_constant,
+    fragments_wgsl, measure_wgsl, shadow_wgsl, vsm_box_wgsl, vsm_reduce_wgsl,
 };
 use scumble_core::Filter;
 
@@ -173,16 +173,16 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
             bleeding_cut,
             moment_block,
             first_bin,
-            padding,
+            is_sphere,
             inner,
-            more_padding,
+            padding,
         ]
     );
     assert_same_layout!(
         module,
         "ShadowLight",
         LightUniform,
-        [slice_ends, map_count, first_map, net_map, across_x, across_y]
+        [slice_ends, map_count, across_x, first_map, across_y, net_map, position, is_point]
     );
     assert_same_layout!(module, "ShadowLights", LightsUniform, [maps, lights, view_depth, block_px]);
     assert_same_layout!(module, "MapDemand", MapDemand, [minimum_bits, counts]);
@@ -228,6 +228,7 @@ fn constants_are_the_same_in_rust_and_wgsl() {
     let module = parse(&measure_wgsl());
     assert_eq!(constant(&module, "SHADOW_LIGHTS_MAX"), f64::from(LIGHTS_MAX));
     assert_eq!(constant(&module, "SHADOW_CASCADES_MAX"), f64::from(CASCADES_MAX));
+    assert_eq!(constant(&module, "SHADOW_LIGHT_MAPS_MAX"), f64::from(LIGHT_MAPS_MAX));
     assert_eq!(constant(&module, "SHADOW_MAPS_MAX"), f64::from(MAPS_MAX));
     assert_eq!(constant(&module, "SHADOW_PCF_TAPS"), f64::from(PCF_TAPS));
     assert_eq!(constant(&module, "SHADOW_BLOCKER_TAPS"), f64::from(BLOCKER_TAPS));

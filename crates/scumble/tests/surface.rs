@@ -26,7 +26,7 @@ fn settings_out_of_range_are_refused_in_words() {
     let too_wide = Options { size: SizeChoice::Fixed([129, 64]), ..Options::default() };
     assert!(refusal(settings(128), too_wide).contains("the cap, 128"));
     let maps = Options { maps: MAPS_MAX + 1, ..Options::default() };
-    assert!(refusal(settings(128), maps).contains("17 maps"));
+    assert!(refusal(settings(128), maps).contains("25 maps"));
     let stride = Options { measure_stride: 0, ..Options::default() };
     assert!(refusal(settings(128), stride).contains("stride"));
     let origin = Options { origin_world: DVec3::NAN, ..Options::default() };

@@ -6,7 +6,7 @@ use common::casters::cuboid;
 use common::rig::{Point, Rig, fixed, ground_and, slab, sun_above};
 use glam::{DVec2, DVec3, Vec3};
 use scumble::scumble_core::{ReceiverPlane, Taps, filter, pixel_hash, rotation_angle};
-use scumble::{Filter, Light, Settings, View};
+use scumble::{Filter, Light, Options, Settings, View};
 
 const SETTINGS_CAP: u32 = 512;
 
@@ -25,6 +25,11 @@ fn lamp() -> Light {
         cone_half_angle: 0.6,
         radius_world: 0.4,
     }
+}
+
+/// Low enough that the ground lies in five of its faces.
+fn bulb() -> Light {
+    Light::Point { position: DVec3::new(0.4, 2.4, -0.3), radius_world: 0.15, reach_world: 20.0 }
 }
 
 /// A slab over part of the ground, and a box on it.
@@ -188,14 +193,24 @@ impl CpuMap<'_> {
 #[test]
 fn filtered_visibility_is_that_of_the_cpu_over_the_same_map() {
     let points = points();
-    for light in [tilted_sun(), lamp()] {
-        let pcf_radius = if matches!(light, Light::Spot { .. }) { 0.01 } else { 0.3 };
+    for light in [tilted_sun(), lamp(), bulb()] {
+        let pcf_radius = match light {
+            Light::Directional { .. } => 0.3,
+            Light::Spot { .. } => 0.01,
+            Light::Point { .. } => 0.004,
+        };
         for kind in [Filter::Hard, Filter::Pcf { radius_world: pcf_radius }, Filter::Pcss] {
-            let mut rig = Rig::new(settings(), fixed(kind, 160), &scene());
+            let mut rig = Rig::new(settings(), Options { maps: 6, ..fixed(kind, 160) }, &scene());
             let plan = rig.draw(&[light]);
-            let view = &plan.views()[0];
-            let depths = rig.gpu.read_depth(rig.shadows.map_texture(), view.layer, view.size_texels);
-            let map = CpuMap { view, depths };
+            let maps: Vec<CpuMap<'_>> = plan
+                .views()
+                .iter()
+                .map(|view| {
+                    let depths = rig.gpu.read_depth(rig.shadows.map_texture(), view.layer, view.size_texels);
+                    CpuMap { view, depths }
+                })
+                .collect();
+            assert_eq!(maps.len(), if matches!(light, Light::Point { .. }) { 5 } else { 1 });
             let bias = rig.shadows.settings().bias;
             let taps = Taps::default();
 
@@ -203,6 +218,8 @@ fn filtered_visibility_is_that_of_the_cpu_over_the_same_map() {
                 .iter()
                 .map(|point| {
                     let position = point.position.as_dvec3();
+                    let view = plan.view_at(0, position).expect("every point has a map");
+                    let map = &maps.iter().find(|map| map.view == view).expect("it was drawn");
                     let plane =
                         ReceiverPlane::new(&view.fit, position, point.normal.as_dvec3(), &bias, view.texel_world());
                     let lookup = |offset, depth| map.lookup(position, offset, depth);

@@ -84,7 +84,7 @@ impl Setup {
                     half_angle.to_degrees()
                 );
             }
-            Light::Spot { radius_world, .. } => *radius_world *= softness,
+            Light::Spot { radius_world, .. } | Light::Point { radius_world, .. } => *radius_world *= softness,
         }
         Ok(light)
     }
@@ -111,7 +111,7 @@ fn set_light_size(light: &mut Light, size: f64) -> Result<()> {
             );
             *half_angle = size.to_radians();
         }
-        Light::Spot { radius_world, .. } => *radius_world = size,
+        Light::Spot { radius_world, .. } | Light::Point { radius_world, .. } => *radius_world = size,
     }
     Ok(())
 }

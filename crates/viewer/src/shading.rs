@@ -16,6 +16,8 @@ use crate::readback::read_texture;
 
 /// Marks a directional light where a spot has the cosine of its cone.
 const NO_CONE: f32 = -2.0;
+/// The cosine of a point light's cone, whose soft edge ends below 0, which is its cosine to every side: its direction is zero.
+const ALL_SIDES: f32 = -1.0;
 /// The obscurance looks this far, as a share of the distance from the eye to what it looks at.
 const OBSCURANCE_SHARE: f64 = 0.06;
 
@@ -42,7 +44,7 @@ pub struct LightingUniform {
 }
 
 impl LightingUniform {
-    /// The look of a scene: sun and sky for a directional light, a warm lamp in a dim room for a spot.
+    /// The look of a scene: sun and sky for a directional light, a warm lamp in a dim room for a spot and a point light.
     pub fn new(scene: &Scene, height_px: u32, samples_per_side: u32) -> Self {
         let camera = &scene.camera;
         let up = camera.up.normalize().as_vec3();
@@ -67,18 +69,25 @@ impl LightingUniform {
                 below_color: Vec3::new(0.50, 0.56, 0.62),
                 ..common
             },
-            Light::Spot { position, direction, cone_half_angle, .. } => Self {
-                light_color: Vec3::new(3.3, 2.75, 2.0),
-                light_position: position.as_vec3(),
-                light_direction: direction.normalize().as_vec3(),
-                cone_cosine: cone_half_angle.cos() as f32,
-                reference_distance_squared: reference_distance(*position, scene).powi(2) as f32,
-                zenith_color: Vec3::new(0.15, 0.17, 0.22),
-                horizon_color: Vec3::new(0.24, 0.23, 0.23),
-                ground_color: Vec3::new(0.20, 0.17, 0.14),
-                below_color: Vec3::new(0.10, 0.09, 0.08),
-                ..common
-            },
+            Light::Spot { position, direction, cone_half_angle, .. } => {
+                Self::lamp(common, *position, direction.normalize().as_vec3(), cone_half_angle.cos() as f32, scene)
+            }
+            Light::Point { position, .. } => Self::lamp(common, *position, Vec3::ZERO, ALL_SIDES, scene),
+        }
+    }
+
+    fn lamp(common: Self, position: DVec3, light_direction: Vec3, cone_cosine: f32, scene: &Scene) -> Self {
+        Self {
+            light_color: Vec3::new(3.3, 2.75, 2.0),
+            light_position: position.as_vec3(),
+            light_direction,
+            cone_cosine,
+            reference_distance_squared: reference_distance(position, scene).powi(2) as f32,
+            zenith_color: Vec3::new(0.15, 0.17, 0.22),
+            horizon_color: Vec3::new(0.24, 0.23, 0.23),
+            ground_color: Vec3::new(0.20, 0.17, 0.14),
+            below_color: Vec3::new(0.10, 0.09, 0.08),
+            ..common
         }
     }
 }

@@ -3,10 +3,10 @@
 use glam::{DMat3, DVec2, DVec3};
 use proptest::prelude::*;
 
-use super::tests_support::{lamp, lamp_over_room, observer, room, sun, sun_over_room};
-use super::{Fit, fit};
+use super::tests_support::{bulb, lamp, lamp_over_room, observer, room, sun, sun_over_room};
+use super::{Fit, fit, fit_face};
 use crate::polyhedron::HalfSpace;
-use crate::{Aabb, Camera, Light};
+use crate::{Aabb, Camera, Face, Light};
 
 fn scene_sides(scene: &Aabb) -> Vec<HalfSpace> {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
@@ -18,9 +18,9 @@ fn scene_sides(scene: &Aabb) -> Vec<HalfSpace> {
 fn receiver_sides(camera: &Camera, scene: &Aabb, light: &Light, fit: &Fit) -> Vec<HalfSpace> {
     let mut sides = scene_sides(scene);
     sides.extend(camera.half_spaces(DVec3::ZERO));
-    sides.extend(light.half_spaces(DVec3::ZERO));
-    if let Light::Spot { position, direction, .. } = *light {
-        let axis = direction.normalize();
+    sides.extend(light.half_spaces(fit.face, DVec3::ZERO));
+    if let Some(position) = light.position() {
+        let axis = light.direction_of(fit.face).normalize();
         sides.push(HalfSpace::through(position + fit.depth_near * axis, axis));
     }
     sides
@@ -49,11 +49,11 @@ fn vertices(sides: &[HalfSpace]) -> Vec<DVec3> {
 }
 
 /// Asserts that the receivers' box is the map: nothing outside, nothing left over.
-fn assert_tight(camera: &Camera, scene: &Aabb, light: &Light) -> Result<(), TestCaseError> {
-    let Some(fit) = fit(camera, scene, light, true).unwrap() else {
+fn assert_tight(camera: &Camera, scene: &Aabb, fit: Option<Fit>) -> Result<(), TestCaseError> {
+    let Some(fit) = fit else {
         return Ok(());
     };
-    let corners = vertices(&receiver_sides(camera, scene, light, &fit));
+    let corners = vertices(&receiver_sides(camera, scene, &fit.light, &fit));
     // Enumeration blurs bodies thinner than its tolerance.
     if fit.extent_world.min_element() < 1e-3 {
         return Ok(());
@@ -99,13 +99,39 @@ proptest! {
     #[test]
     fn the_map_of_the_sun_is_the_smallest_box_of_the_receivers(camera in any_camera(), direction in vector(1.0)) {
         let light = Light::Directional { direction, half_angle: 0.01 };
-        assert_tight(&camera, &room(), &light)?;
+        assert_tight(&camera, &room(), fit(&camera, &room(), &light, true).unwrap())?;
     }
 
     #[test]
     fn the_map_of_a_lamp_is_the_smallest_box_of_the_receivers(camera in any_camera(), position in vector(6.0), aim in vector(1.5), cone_half_angle in 0.2..1.2_f64) {
         let light = Light::Spot { position, direction: aim - position, cone_half_angle, radius_world: 0.1 };
-        assert_tight(&camera, &room(), &light)?;
+        assert_tight(&camera, &room(), fit(&camera, &room(), &light, true).unwrap())?;
+    }
+
+    #[test]
+    fn the_map_of_a_face_is_the_smallest_box_of_its_receivers(camera in any_camera(), position in vector(4.0), face in 0..6_usize, reach_world in 0.5..20.0_f64) {
+        let light = Light::Point { position, radius_world: 0.1, reach_world };
+        assert_tight(&camera, &room(), fit_face(&camera, &room(), &light, Face::ALL[face], true).unwrap())?;
+    }
+
+    #[test]
+    fn every_receiver_on_screen_within_reach_is_covered_by_the_map_of_its_face(camera in any_camera(), position in vector(4.0), reach_world in 0.5..20.0_f64, points in prop::collection::vec((0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64), 64)) {
+        let light = Light::Point { position, radius_world: 0.1, reach_world };
+        let fits = Face::ALL.map(|face| fit_face(&camera, &room(), &light, face, true).unwrap());
+        for &(x, y, z) in &points {
+            let p = room().min + room().size() * DVec3::new(x, y, z);
+            let clip = camera.clip_from_world() * p.extend(1.0);
+            let is_seen = clip.truncate().abs().max_element() <= clip.w && clip.z >= 0.0;
+            let distance = (p - position).abs().max_element();
+            let near = fits.iter().flatten().map(|fit| fit.depth_near).next().unwrap_or(0.0);
+            if !is_seen || distance > reach_world || distance < near {
+                continue;
+            }
+            let fit = fits[Face::of(p - position).index() as usize].as_ref().expect("a face with a point in it has a map");
+            let (uv, depth) = fit.uv_from_world(p);
+            prop_assert!(uv.min_element() > -1e-9 && uv.max_element() < 1.0 + 1e-9, "{uv}");
+            prop_assert!(depth <= fit.depth_far);
+        }
     }
 
     #[test]
@@ -178,6 +204,37 @@ fn a_lamp_starts_where_its_cone_enters_the_scene_or_at_a_hundredth_of_its_reach(
     assert!((above.scale * above.extent_world - square).abs().max_element() < 1e-9);
     let inside = fit(&patch_of_floor(), &room(), &lamp(1.5), true).unwrap().unwrap();
     assert!((inside.depth_near - 0.02).abs() < 1e-5, "{}", inside.depth_near);
+}
+
+#[test]
+fn the_faces_of_a_bulb_share_a_near_plane_where_the_scene_begins_or_at_a_hundredth_of_its_reach() {
+    let near_of = |position, reach_world| {
+        let light = Light::Point { position, radius_world: 0.1, reach_world };
+        let fits = Face::ALL.map(|face| fit_face(&observer(), &room(), &light, face, true).unwrap());
+        let nears: Vec<f64> = fits.iter().flatten().map(|fit| fit.depth_near).collect();
+        assert!(nears.iter().all(|&near| near == nears[0]), "{nears:?}");
+        nears[0]
+    };
+    let above = near_of(DVec3::new(0.5, 4.5, -0.5), f64::INFINITY);
+    assert!((above - 2.0).abs() < 3e-4 && above < 2.0, "{above}");
+    // The room's far corner is 4 m along -z from here.
+    let inside = near_of(DVec3::new(0.5, 1.0, 1.0), f64::INFINITY);
+    assert!((inside - 0.04).abs() < 1e-5, "{inside}");
+    let short = near_of(DVec3::new(0.5, 1.0, 1.0), 2.0);
+    assert!((short - 0.02).abs() < 1e-5, "{short}");
+}
+
+#[test]
+fn faces_that_nothing_seen_lies_in_have_no_map() {
+    // The eye is half a metre below the bulb, and sees what is below it.
+    let above = Light::Point { position: DVec3::new(0.4, 2.0, -0.6), radius_world: 0.1, reach_world: f64::INFINITY };
+    for face in Face::ALL {
+        let fit = fit_face(&patch_of_floor(), &room(), &above, face, true).unwrap();
+        assert_eq!(fit.is_some(), face == Face::NegativeY, "{face:?}");
+    }
+    let far_away = Light::Point { position: DVec3::splat(50.0), radius_world: 0.1, reach_world: 10.0 };
+    assert!(Face::ALL.iter().all(|&face| fit_face(&observer(), &room(), &far_away, face, true).unwrap().is_none()));
+    assert!(fit(&observer(), &room(), &bulb(), true).unwrap_err().to_string().contains("six faces"));
 }
 
 #[test]
@@ -305,6 +362,25 @@ fn degenerate_views_have_a_usable_map() {
         for fitted in [true, false] {
             let fit = fit(&camera, &room(), &light, fitted).unwrap();
             assert_usable(&fit.unwrap_or_else(|| panic!("{name}")));
+        }
+    }
+}
+
+#[test]
+fn degenerate_scenes_and_bulbs_have_usable_faces_or_none() {
+    let bulb = |position, reach_world| Light::Point { position, radius_world: 0.1, reach_world };
+    let flat = |size: DVec3| Aabb { min: -0.5 * size, max: 0.5 * size };
+    let scenes =
+        [room(), flat(DVec3::new(2.0, 0.0, 2.0)), flat(DVec3::ZERO), flat(DVec3::splat(1e-9)), flat(DVec3::splat(1e6))];
+    for scene in scenes {
+        for position in [DVec3::ZERO, observer().eye, DVec3::new(0.0, 0.0, 30.0), DVec3::new(1.0, 1.0, 1.0)] {
+            for light in [bulb(position, 1e-6), bulb(position, 5.0), bulb(position, f64::INFINITY)] {
+                for (face, fitted) in Face::ALL.into_iter().zip([true, false].into_iter().cycle()) {
+                    if let Some(fit) = fit_face(&observer(), &scene, &light, face, fitted).unwrap() {
+                        assert_usable(&fit);
+                    }
+                }
+            }
         }
     }
 }

@@ -34,6 +34,10 @@ pub(crate) fn lamp() -> Light {
     }
 }
 
+pub(crate) fn bulb() -> Light {
+    Light::Point { position: DVec3::new(0.4, 1.3, -0.6), radius_world: 0.1, reach_world: f64::INFINITY }
+}
+
 pub(crate) fn sun_over_room() -> Fit {
     fit(&observer(), &room(), &sun(), true).unwrap().unwrap()
 }

@@ -120,7 +120,7 @@ fn compare_with_light(screen: &Screen, visibility: &[f32], light: &[Estimate]) -
 fn faces(light: &Light, surface: &Surface) -> bool {
     let to_light = light.towards_light(surface.position.as_dvec3());
     let is_in_cone = match *light {
-        Light::Directional { .. } => true,
+        Light::Directional { .. } | Light::Point { .. } => true,
         Light::Spot { direction, cone_half_angle, .. } => -to_light.dot(direction.normalize()) > cone_half_angle.cos(),
     };
     is_in_cone && to_light.dot(surface.normal.as_dvec3()) > 0.0
