@@ -9,7 +9,7 @@
 //! 2. The screen's demand is its smallest filter radius r, [`Demand`], or a low quantile, [`Statistic`]: the filter's own
 //!    radius for percentage closer filtering, measured from the last map for soft shadows.
 //! 3. [`Relation`] turns that into texels of r / c, and N = c L / r of them, x and y apart.
-//! 4. [`TexelPolicy`] makes that a texel which changes rarely, within the caps; [`Fit::on_lattice`] takes the box to whole
+//! 4. [`TexelPolicy`] makes that a texel which changes rarely, within the caps, and coarse while [`Rest`] says that nothing is in shadow; [`Fit::on_lattice`] takes the box to whole
 //!    texels of a lattice that stands still in the world; [`Size`] says what is achieved.
 //! 5. The renderer draws a map of that size with [`Fit::clip_from_world`] and filters it as [`filter`] does: radius in
 //!    world units, taps of [`poisson_disc`], bias of [`ReceiverPlane`].
@@ -61,6 +61,7 @@ mod polyhedron;
 mod presets;
 mod relation;
 mod relation_file;
+mod rest;
 mod seen;
 mod settings;
 mod split;
@@ -83,6 +84,7 @@ pub use relation_file::{
     ConditionEstimate, Estimate, FormTests, GoodnessOfFit, ModelParameters, NullTest, OtherEstimator, PopulationPoint,
     RelationFile, SCHEMA, SessionHash,
 };
+pub use rest::Rest;
 pub use seen::{Seen, SeenBand, SeenCascades, seen_cascades};
 pub use settings::{Filter, Settings, pixel_footprint_world};
 pub use split::Splits;

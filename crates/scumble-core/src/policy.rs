@@ -30,7 +30,8 @@ pub enum Demand {
     /// The filter radius on screen that decides, in metres at the reference plane; see
     /// [`Settings::demand_radius_world`](crate::Settings::demand_radius_world).
     Radius(f64),
-    /// No penumbra on screen: the size stays, or is the smallest when there is none yet.
+    /// No penumbra on screen: the size stays, or is the smallest when there is none yet. Where nothing is in shadow, see
+    /// [`Rest`](crate::Rest).
     Nothing,
 }
 
@@ -145,7 +146,7 @@ impl Axis {
 }
 
 /// Side of a rung's texel, metres.
-fn texel(rung: i32) -> f64 {
+pub(crate) fn texel(rung: i32) -> f64 {
     (-f64::from(rung) / RUNGS_PER_OCTAVE).exp2()
 }
 
@@ -155,7 +156,7 @@ fn coarsest_rung(texel: f64) -> i32 {
 }
 
 /// The finest rung with which a box has no more than `most` texels, wherever it lies on the lattice: one less across.
-fn finest_rung(extent: f64, most: u32) -> i32 {
+pub(crate) fn finest_rung(extent: f64, most: u32) -> i32 {
     (RUNGS_PER_OCTAVE * (f64::from(most - 1) / extent).log2() + ROUNDING_SLACK).floor() as i32
 }
 

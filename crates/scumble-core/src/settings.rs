@@ -86,6 +86,9 @@ pub struct Settings {
     pub shrink_after_frames: u32,
     /// Most rungs of the ladder, quarters of an octave, that one shrinking takes; limits the rate of visible change.
     pub shrink_rungs: u32,
+    /// Most texels per side of a map under which all that is measured on screen has been lit for `shrink_after_frames`
+    /// pictures; the cap or more for maps that never rest. Casters narrower than its texels may stay unseen when they enter.
+    pub side_at_rest: u32,
     /// Depth bias.
     pub bias: Bias,
     /// Guards of variance shadow maps.
@@ -105,6 +108,8 @@ impl Default for Settings {
             shrink_below: 0.2,
             shrink_after_frames: 30,
             shrink_rungs: 4,
+            // A tenth to a hundredth of the texels of usual maps, and a texel of 0.2 m of 50.
+            side_at_rest: 256,
             bias: Bias::default(),
             variance: VarianceBound::default(),
         }
@@ -128,6 +133,7 @@ impl Settings {
         not_negative("radius_min_world", self.radius_min_world)?;
         check("shrink_below", self.shrink_below, (0.0..1.0).contains(&self.shrink_below), "a share from 0 to below 1")?;
         check("shrink_rungs", f64::from(self.shrink_rungs), self.shrink_rungs > 0, "1 or more")?;
+        check("side_at_rest", f64::from(self.side_at_rest), self.side_at_rest >= 8, "8 texels or more")?;
         self.statistic.checked()?;
         self.bias.checked()?;
         self.variance.checked()?;
@@ -183,6 +189,7 @@ mod tests {
             (Settings { radius_min_world: f64::INFINITY, ..good() }, "radius_min_world"),
             (Settings { shrink_below: 1.0, ..good() }, "shrink_below"),
             (Settings { shrink_rungs: 0, ..good() }, "shrink_rungs"),
+            (Settings { side_at_rest: 7, ..good() }, "side_at_rest"),
             (Settings { statistic: Statistic::Quantile(1.0), ..good() }, "the share of Statistic::Quantile"),
         ];
         for (settings, name) in wrong {

@@ -25,6 +25,8 @@ struct Measure {
 
 struct MapDemand {
     minimum_bits: atomic<u32>,
+    // Fragments that do not see all of the light.
+    shadowed: atomic<u32>,
     counts: array<atomic<u32>, MEASURE_BINS>,
 }
 
@@ -34,6 +36,8 @@ struct LightReceivers {
 }
 
 struct Measured {
+    // Counted by the pass that makes blocks of corners.
+    blocks: array<array<atomic<u32>, 3>, SHADOW_MAPS_MAX>,
     maps: array<MapDemand, SHADOW_MAPS_MAX>,
     receivers: array<LightReceivers, SHADOW_LIGHTS_MAX>,
 }
@@ -60,11 +64,12 @@ const NO_PLANE: f32 = 1e30;
 @group(1) @binding(0) var<uniform> measure: Measure;
 @group(1) @binding(1) var prepass: texture_depth_2d;
 @group(1) @binding(2) var<storage, read_write> measured: Measured;
-// What each measured pixel is, SHADOW_BLOCK_..., a layer a light.
+// What each measured pixel is, `shadow_corner`, a layer a light.
 @group(1) @binding(3) var corners: texture_storage_2d_array<r32uint, write>;
 
 // By map of the light; the bins of all maps one after the other; four minima a band.
 var<workgroup> group_minimum: array<atomic<u32>, SHADOW_LIGHT_MAPS_MAX>;
+var<workgroup> group_shadowed: array<atomic<u32>, SHADOW_LIGHT_MAPS_MAX>;
 var<workgroup> group_counts: array<atomic<u32>, SHADOW_LIGHT_MAPS_MAX * MEASURE_BINS>;
 var<workgroup> group_receivers: array<atomic<u32>, 4u * MEASURE_BANDS>;
 
@@ -123,17 +128,18 @@ struct Found {
     block: u32,
     map: u32,
     turns_back: bool,
+    is_shadowed: bool,
 }
 
 // The sky, and what turns its back on the light, say nothing of the pixels around; a crease has no normal to tell.
 fn found_at(light: u32, pixel: vec2i, size: vec2i) -> Found {
     if depth_at(pixel) >= 1.0 {
-        return Found(MEASURE_NOTHING, 0u, SHADOW_NO_MAP, false);
+        return Found(MEASURE_NOTHING, 0u, SHADOW_NO_MAP, false, false);
     }
     let here = surface_at(pixel);
     let map = shadow_map_of(light, here);
     if map == SHADOW_NO_MAP {
-        return Found(MEASURE_NOTHING, 0u, map, false);
+        return Found(MEASURE_NOTHING, 0u, map, false, false);
     }
     let normal = normal_at(pixel, size, here);
     let position_light = (shadow_lights.maps[map].light_from_world * vec4f(here, 1.0)).xyz;
@@ -141,24 +147,24 @@ fn found_at(light: u32, pixel: vec2i, size: vec2i) -> Found {
     let ray_light = shadow_ray_light(map, position_light);
     if !shadow_faces_light(map, normal_light, ray_light) {
         let turns_back = dot(normal_light, ray_light) > 0.0;
-        return Found(MEASURE_NOTHING, select(SHADOW_BLOCK_MIXED, 0u, turns_back), map, turns_back);
+        return Found(MEASURE_NOTHING, select(SHADOW_BLOCK_MIXED, 0u, turns_back), map, turns_back, false);
     }
 
     let sample = shadow_sample(light, here, normal, vec2f(pixel) + 0.5);
     if sample.visibility == 1.0 {
-        return Found(MEASURE_NOTHING, SHADOW_BLOCK_LIT, map, false);
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_LIT, map, false, false);
     }
     if sample.visibility == 0.0 {
-        return Found(MEASURE_NOTHING, SHADOW_BLOCK_UMBRA, map, false);
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_UMBRA, map, false, true);
     }
     let pixel_world = dot(here - measure.eye, measure.forward) * measure.pixel_at_unit_distance;
     let footprint = shadow_footprint(map, pixel_world, position_light.z);
     let guard = max(measure.radius_floor_world, measure.radius_per_footprint * footprint);
     let radius = max(sample.radius_plane, guard);
     if sample.blockers < 2u || !(radius > 0.0) {
-        return Found(MEASURE_NOTHING, SHADOW_BLOCK_MIXED, map, false);
+        return Found(MEASURE_NOTHING, SHADOW_BLOCK_MIXED, map, false, true);
     }
-    return Found(min(bitcast<u32>(radius), MEASURE_NOTHING), SHADOW_BLOCK_MIXED, map, false);
+    return Found(min(bitcast<u32>(radius), MEASURE_NOTHING), SHADOW_BLOCK_MIXED, map, false, true);
 }
 
 // CPU twin: `scumble_core::RadiusHistogram::bin_of`.
@@ -210,6 +216,7 @@ fn measure_demand(
     let size = vec2i(textureDimensions(prepass));
     if index < map_count {
         atomicStore(&group_minimum[index], MEASURE_NOTHING);
+        atomicStore(&group_shadowed[index], 0u);
     }
     for (var bin = index; bin < map_count * MEASURE_BINS; bin += MEASURE_GROUP) {
         atomicStore(&group_counts[bin], 0u);
@@ -221,7 +228,12 @@ fn measure_demand(
     if all(invocation.xy < textureDimensions(corners)) {
         let pixel = min(vec2i(invocation.xy * measure.stride), size - 1);
         let found = found_at(light, pixel, size);
-        textureStore(corners, invocation.xy, light, vec4u(found.block, 0u, 0u, 0u));
+        let starts_block = all(vec2i(invocation.xy * measure.stride) < size);
+        let corner = shadow_corner(found.block, found.map, starts_block);
+        textureStore(corners, invocation.xy, light, vec4u(corner, 0u, 0u, 0u));
+        if found.is_shadowed {
+            atomicAdd(&group_shadowed[found.map - first_map], 1u);
+        }
         if found.radius_bits < MEASURE_NOTHING {
             let slice = found.map - first_map;
             atomicMin(&group_minimum[slice], found.radius_bits);
@@ -236,6 +248,10 @@ fn measure_demand(
         let minimum = atomicLoad(&group_minimum[index]);
         if minimum < MEASURE_NOTHING {
             atomicMin(&measured.maps[first_map + index].minimum_bits, minimum);
+        }
+        let shadowed = atomicLoad(&group_shadowed[index]);
+        if shadowed > 0u {
+            atomicAdd(&measured.maps[first_map + index].shadowed, shadowed);
         }
     }
     for (var bin = index; bin < map_count * MEASURE_BINS; bin += MEASURE_GROUP) {

@@ -3,7 +3,7 @@
 //!
 //! A corner is *lit* where the filter lets all light through, *umbra* where it lets none, and *mixed* anywhere else; a block
 //! is what all of its corners agree on. A pixel of a lit or dark block looks up the map once and filters only where the
-//! lookup disagrees. So what is missed is a penumbra, or a part of one, that lies between corners outside of it, where a
+//! lookup disagrees. The pass counts blocks by map and kind, which tells what was saved. So what is missed is a penumbra, or a part of one, that lies between corners outside of it, where a
 //! single lookup says what they say.
 
 use crate::uniforms::LIGHTS_MAX;
@@ -74,8 +74,8 @@ impl Blocks {
     /// Textures and bind groups created by [`Blocks::new`].
     pub const ALLOCATIONS: u64 = 3;
 
-    /// Allocates for a prepass of `corners_size` corners.
-    pub fn new(device: &wgpu::Device, pass: &ClassifyPass, corners_size: [u32; 2]) -> Self {
+    /// Allocates for a prepass of `corners_size` corners; blocks are counted at the beginning of `counts`.
+    pub fn new(device: &wgpu::Device, pass: &ClassifyPass, corners_size: [u32; 2], counts: &wgpu::Buffer) -> Self {
         let corners = blocks_texture(device, corners_size);
         let blocks = blocks_texture(device, corners_size);
         let classify = device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -84,6 +84,7 @@ impl Blocks {
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&corners) },
                 wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&blocks) },
+                wgpu::BindGroupEntry { binding: 2, resource: counts.as_entire_binding() },
             ],
         });
         Self { corners_size, corners, blocks, classify }
@@ -114,13 +115,18 @@ impl ClassifyPass {
             ty,
             count: None,
         };
+        let counted = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: false },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("scumble classify"),
-            entries: &[entry(0, sampled_binding()), entry(1, written_binding())],
+            entries: &[entry(0, sampled_binding()), entry(1, written_binding()), entry(2, counted)],
         });
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("scumble classify"),
-            source: wgpu::ShaderSource::Wgsl(crate::shaders::CLASSIFY_WGSL.into()),
+            source: wgpu::ShaderSource::Wgsl(crate::shaders::classify_wgsl().into()),
         });
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("scumble classify"),

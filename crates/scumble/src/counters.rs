@@ -19,10 +19,48 @@ pub struct Counters {
     pub moment_passes: u64,
     /// Depth passes begun.
     pub map_passes: u64,
+    /// Maps of the lights of the uploaded plan that nothing on screen needs: no pass, no texels, all lit.
+    pub maps_skipped: u32,
+    /// Maps of the uploaded plan that rest at a small size, because nothing on screen is in their shadow.
+    pub maps_resting: u32,
     /// Demand passes recorded.
     pub measure_passes: u64,
     /// Demand passes whose result was not brought back because the readback ring was full.
     pub readbacks_skipped: u64,
     /// Results that came back and were taken.
     pub readbacks_taken: u64,
+}
+
+/// What the blocks of pixels of a measured picture hold that read one map, in number; those of sky and of what turns its
+/// back on the light are in none. A block has `measure_stride` squared pixels, but for those on the picture's border.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BlockCounts {
+    /// Lit at every corner: pixels whose one lookup says so skip the filter.
+    pub lit: u32,
+    /// Dark at every corner: likewise.
+    pub umbra: u32,
+    /// All others: every pixel pays the filter.
+    pub mixed: u32,
+}
+
+impl BlockCounts {
+    /// All blocks.
+    #[must_use]
+    pub fn total(&self) -> u32 {
+        self.lit + self.umbra + self.mixed
+    }
+
+    /// Share of the blocks that skip the filter of PCF and PCSS, 0 to 1; 0 of no blocks.
+    #[must_use]
+    pub fn skipped_share(&self) -> f64 {
+        f64::from(self.lit + self.umbra) / f64::from(self.total().max(1))
+    }
+}
+
+impl std::ops::Add for BlockCounts {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { lit: self.lit + other.lit, umbra: self.umbra + other.umbra, mixed: self.mixed + other.mixed }
+    }
 }

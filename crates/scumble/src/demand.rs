@@ -5,6 +5,7 @@
 
 use scumble_core::{Demand, Filter, Fit, Light, RadiusHistogram, Settings, Statistic};
 
+use crate::counters::BlockCounts;
 use crate::uniforms::MapDemand;
 
 /// How to read what is found under a map when it comes back and the fit is another.
@@ -20,13 +21,22 @@ impl Reading {
         Self { scale: measure_scale(fit), first_bin: first_bin(fit) }
     }
 
-    /// The radius that counts, in the sense of [`MapState::measured`](crate::plan::MapState).
-    pub fn radius_per_scale(&self, found: &MapDemand, statistic: Statistic) -> Option<f64> {
-        self.per_scale(statistic.demand(found.minimum_bits, &RadiusHistogram::new(self.first_bin, &found.counts)))
+    /// What the bits that came back say.
+    pub fn found(&self, demand: &MapDemand, [lit, umbra, mixed]: [u32; 3], statistic: Statistic) -> Found {
+        let histogram = RadiusHistogram::new(self.first_bin, &demand.counts);
+        Found {
+            radius_per_scale: self.per_scale(statistic.demand(demand.minimum_bits, &histogram)),
+            is_lit: demand.shadowed == 0,
+            blocks: Some(BlockCounts { lit, umbra, mixed }),
+        }
     }
 
-    /// A demand under the map, in the same sense.
-    pub fn per_scale(&self, demand: Demand) -> Option<f64> {
+    /// What the demand alone says.
+    pub fn found_demand(&self, demand: Demand) -> Found {
+        Found { radius_per_scale: self.per_scale(demand), is_lit: false, blocks: None }
+    }
+
+    fn per_scale(&self, demand: Demand) -> Option<f64> {
         match demand {
             Demand::Radius(radius_world) => Some(radius_world / self.scale),
             Demand::Nothing => None,
@@ -34,14 +44,25 @@ impl Reading {
     }
 }
 
+/// What was found on screen under one map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    /// The radius that counts: over the reference depth of a spot, radius for other lights; `None` for no penumbra.
+    pub radius_per_scale: Option<f64>,
+    /// Whether everything is known to see all of the light.
+    pub is_lit: bool,
+    /// By kind; `None` where they were not counted.
+    pub blocks: Option<BlockCounts>,
+}
+
 /// First bin of the histogram of the radii under a map.
 pub fn first_bin(fit: &Fit) -> u32 {
     RadiusHistogram::first_bin(fit.extent_world.max_element())
 }
 
-/// What is asked of a map of this fit, of which `measured` is in the sense of [`MapState`](crate::plan::MapState).
-pub fn demand(settings: &Settings, filter: &Filter, fit: &Fit, measured: Option<Option<f64>>) -> Demand {
-    match measured {
+/// What is asked of a map of this fit; `measured` is `None` before the first measurement.
+pub fn demand(settings: &Settings, filter: &Filter, fit: &Fit, measured: Option<Found>) -> Demand {
+    match measured.map(|found| found.radius_per_scale) {
         Some(Some(radius_per_scale)) => Demand::Radius(radius_per_scale * measure_scale(fit)),
         Some(None) => Demand::Nothing,
         None => {

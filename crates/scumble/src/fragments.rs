@@ -111,7 +111,7 @@ impl FragmentDemand {
         let Some((bytes, readings)) = self.ring.take() else { return false };
         let found: FragmentsStorage = bytemuck::pod_read_unaligned(&bytes);
         let radius = |(bits, reading): (u32, Option<crate::demand::Reading>)| {
-            Some(reading?.per_scale(Demand::from_minimum_bits(bits)))
+            Some(reading?.found_demand(Demand::from_minimum_bits(bits)))
         };
         shadows.set_measured(found.minima.into_iter().zip(readings).map(radius));
         true

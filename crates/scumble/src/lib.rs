@@ -54,7 +54,7 @@ mod slices;
 pub mod uniforms;
 mod view;
 
-pub use counters::Counters;
+pub use counters::{BlockCounts, Counters};
 pub use error::Error;
 pub use fragments::{FragmentDemand, FragmentsStorage};
 pub use measure::NOTHING as MEASURE_NOTHING;
@@ -62,7 +62,7 @@ pub use options::{Options, SizeChoice};
 pub use plan::filter_constant;
 pub use scumble_core::{self, Aabb, Camera, Face, Filter, Light, Settings, Splits, Statistic};
 pub use shaders::{
-    CLASSIFY_WGSL, CLEAR_WGSL, FILTER_OVERRIDE, fragments_wgsl, measure_wgsl, shadow_wgsl, vsm_box_wgsl,
+    CLEAR_WGSL, FILTER_OVERRIDE, classify_wgsl, fragments_wgsl, measure_wgsl, shadow_wgsl, vsm_box_wgsl,
     vsm_reduce_wgsl,
 };
 pub use shadows::Shadows;

@@ -8,7 +8,7 @@ use scumble_core::{Camera, Light, RadiusHistogram, Seen, Settings, Statistic};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use crate::blocks::{Blocks, ClassifyPass, corners_of, written_binding};
-use crate::demand::Reading;
+use crate::demand::{Found, Reading};
 use crate::error::Error;
 use crate::readback::Ring;
 use crate::seen::{NOWHERE, Picture};
@@ -42,7 +42,9 @@ pub type Readings = [Option<Reading>; MAPS_MAX as usize];
 
 /// Where nothing was found yet.
 const START: Measured = Measured {
-    maps: [MapDemand { minimum_bits: NOTHING, counts: [0; RadiusHistogram::BINS as usize] }; MAPS_MAX as usize],
+    blocks: [[0; 3]; MAPS_MAX as usize],
+    maps: [MapDemand { minimum_bits: NOTHING, shadowed: 0, counts: [0; RadiusHistogram::BINS as usize] };
+        MAPS_MAX as usize],
     receivers: [LightReceivers { minima: [[NOWHERE; 4]; Seen::BANDS as usize] }; LIGHTS_MAX as usize],
 };
 
@@ -51,8 +53,8 @@ pub type Lights = [Option<Light>; LIGHTS_MAX as usize];
 
 /// What came back.
 pub struct Taken {
-    /// By map, in the sense of [`MapState::measured`](crate::plan::MapState).
-    pub radii: Vec<Option<Option<f64>>>,
+    /// By map; `None` where none was drawn.
+    pub maps: Vec<Option<Found>>,
     /// By light.
     pub seen: Vec<Option<Seen>>,
 }
@@ -183,7 +185,7 @@ impl Measure {
         if self.blocks.as_ref().is_some_and(|blocks| blocks.corners_size() == corners_size) {
             return false;
         }
-        self.blocks = Some(Blocks::new(device, &self.classify, corners_size));
+        self.blocks = Some(Blocks::new(device, &self.classify, corners_size, &self.demand));
         self.bound = None;
         true
     }
@@ -192,10 +194,11 @@ impl Measure {
     pub fn take(&mut self, statistic: Statistic) -> Option<Taken> {
         let (bytes, (readings, picture)) = self.ring.take()?;
         let found: Measured = bytemuck::pod_read_unaligned(&bytes);
-        let radius =
-            |(found, reading): (&MapDemand, Option<Reading>)| Some(reading?.radius_per_scale(found, statistic));
+        let of_map = |((demand, &blocks), reading): ((&MapDemand, &[u32; 3]), Option<Reading>)| {
+            Some(reading?.found(demand, blocks, statistic))
+        };
         Some(Taken {
-            radii: found.maps.iter().zip(readings).map(radius).collect(),
+            maps: found.maps.iter().zip(&found.blocks).zip(readings).map(of_map).collect(),
             seen: picture.seen(&found.receivers),
         })
     }

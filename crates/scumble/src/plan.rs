@@ -5,13 +5,13 @@
 //! layers, of which those that nothing on screen needs stay empty.
 
 use bytemuck::Zeroable;
-use glam::{DMat4, DVec3, Mat4};
+use glam::{DMat4, DVec2, DVec3, Mat4};
 use scumble_core::{
-    Aabb, Bias, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Seen, Settings, Size, TexelPolicy, size_achieved,
-    slices_of,
+    Aabb, Bias, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Rest, Seen, Settings, Size, TexelPolicy,
+    size_achieved, slices_of,
 };
 
-use crate::demand::first_bin;
+use crate::demand::{Found, first_bin};
 use crate::error::Error;
 use crate::moments::blocks_of;
 use crate::options::{Options, SizeChoice};
@@ -40,9 +40,10 @@ fn filter_kind(filter: &Filter) -> u32 {
 pub struct MapState {
     /// Its texel.
     pub policy: TexelPolicy,
-    /// Newest measurement: radius over the reference depth of a lamp, radius for a directional light; `Some(None)` for no
-    /// penumbra on screen, `None` before the first and where the map was not drawn.
-    pub measured: Option<Option<f64>>,
+    /// Whether it rests, by all measurements.
+    pub rest: Rest,
+    /// Newest measurement; `None` before the first and where the map was not drawn.
+    pub measured: Option<Found>,
 }
 
 /// Plans a frame; `states` holds one state a map of the lights or more, `seen` by light what the newest measured picture
@@ -67,6 +68,7 @@ pub fn plan(
     let mut plan = Plan {
         camera: *camera,
         views: Vec::with_capacity(needed as usize),
+        maps_needed: needed,
         policies: states.iter().map(|state| state.policy.clone()).collect(),
         uniform: LightsUniform { view_depth: view_depth(camera, options.origin_world), ..LightsUniform::zeroed() },
     };
@@ -75,7 +77,8 @@ pub fn plan(
         let seen = seen.get(index).and_then(Option::as_ref);
         let slices = slices(settings, options, &states[first as usize..], (camera, scene, light), seen)?;
         plan.uniform.lights[index] = light_uniform(light, options.origin_world, &slices, first, count);
-        for view in views_of_light(settings, options, &mut plan.policies, [index as u32, first], slices)? {
+        let mut sizing = Sizing { settings, options, states, policies: &mut plan.policies };
+        for view in sizing.views_of_light([index as u32, first], slices)? {
             plan.uniform.maps[view.layer as usize] = map_uniform(settings, options, &view);
             plan.views.push(view);
         }
@@ -84,61 +87,73 @@ pub fn plan(
     Ok(plan)
 }
 
-/// The maps of one light, whose nearest slice has the layer `first`.
-fn views_of_light(
-    settings: &Settings,
-    options: &Options,
-    policies: &mut [TexelPolicy],
-    [light, first]: [u32; 2],
-    slices: Vec<Slice>,
-) -> Result<Vec<View>, Error> {
-    let mut views = Vec::with_capacity(slices.len());
-    for Slice { slice, depth_end, fit, border_world, demand, is_net } in slices {
-        let Some(fit) = fit else { continue };
-        let layer = first + slice;
-        // A net has its texel from its own extent in every frame, and leaves that of the layer's slice alone.
-        let mut own = TexelPolicy::new(settings)?;
-        let policy = if is_net { &mut own } else { &mut policies[layer as usize] };
-        let (fit, size) = sized(settings, options, policy, fit, demand)?;
-        // Where the cap binds, narrower filters than it hides are widened (Kreuzer 2017, 6.2), and under a net all are. A
-        // fixed size is left alone.
-        let widens = options.size == SizeChoice::Adaptive && (size.capped || is_net);
-        let least = if widens { size.radius_min_world } else { 0.0 };
-        views.push(View {
-            light,
-            slice,
-            depth_end,
-            layer,
-            size_texels: size.texels,
-            size,
-            clip_from_world: fit.clip_from_relative(options.origin_world).as_mat4(),
-            radius_min_world: settings.radius_min_world.max(least),
-            is_net,
-            inner: 1.0 - 2.0 * border_world / fit.extent_world,
-            fit,
-        });
-    }
-    Ok(views)
+/// From slices to maps with a size.
+struct Sizing<'a> {
+    settings: &'a Settings,
+    options: &'a Options,
+    states: &'a [MapState],
+    /// Of the states, a frame on.
+    policies: &'a mut [TexelPolicy],
 }
 
-/// The fit with its size: on the lattice of an adaptive texel, or as it is with fixed texels.
-fn sized(
-    settings: &Settings,
-    options: &Options,
-    policy: &mut TexelPolicy,
-    fit: Fit,
-    demand: Demand,
-) -> Result<(Fit, Size), Error> {
-    let (fit, texels) = match options.size {
-        SizeChoice::Adaptive => fit.on_lattice(policy.next(fit.extent_world, demand)?, settings.floor),
-        SizeChoice::Fixed(texels) => (fit, texels),
-    };
-    let radius = match demand {
-        Demand::Radius(radius) => Some(radius.max(settings.radius_min_world)),
-        Demand::Nothing => None,
-    };
-    let size = size_achieved(texels, fit.extent_world, radius, &settings.relation);
-    Ok((fit, size))
+impl Sizing<'_> {
+    /// The maps of one light, whose nearest slice has the layer `first`.
+    fn views_of_light(&mut self, [light, first]: [u32; 2], slices: Vec<Slice>) -> Result<Vec<View>, Error> {
+        let mut views = Vec::with_capacity(slices.len());
+        for Slice { slice, depth_end, fit, border_world, demand, is_net } in slices {
+            let Some(fit) = fit else { continue };
+            let layer = first + slice;
+            let is_adaptive = self.options.size == SizeChoice::Adaptive;
+            let is_resting = is_adaptive && !is_net && self.states[layer as usize].rest.is_resting(self.settings);
+            let (fit, size) = match self.options.size {
+                SizeChoice::Fixed(texels) => self.achieved(fit, texels, demand),
+                SizeChoice::Adaptive => {
+                    let texel_world = self.texel_world(layer, &fit, demand, is_net)?;
+                    let (fit, texels) = fit.on_lattice(texel_world, self.settings.floor);
+                    self.achieved(fit, texels, if is_resting { Demand::Nothing } else { demand })
+                }
+            };
+            // Where the cap binds, narrower filters than it hides are widened (Kreuzer 2017, 6.2), and under a net and in a
+            // map that rests all are. A fixed size is left alone.
+            let widens = is_adaptive && (size.capped || is_net || is_resting);
+            let least = if widens { size.radius_min_world } else { 0.0 };
+            views.push(View {
+                light,
+                slice,
+                depth_end,
+                layer,
+                size_texels: size.texels,
+                size,
+                clip_from_world: fit.clip_from_relative(self.options.origin_world).as_mat4(),
+                radius_min_world: self.settings.radius_min_world.max(least),
+                is_net,
+                is_resting,
+                inner: 1.0 - 2.0 * border_world / fit.extent_world,
+                fit,
+            });
+        }
+        Ok(views)
+    }
+
+    /// The texel of an adaptive map. A net has its texel from its own extent in every frame, and leaves that of the layer's
+    /// slice alone.
+    fn texel_world(&mut self, layer: u32, fit: &Fit, demand: Demand, is_net: bool) -> Result<DVec2, Error> {
+        if is_net {
+            return Ok(TexelPolicy::new(self.settings)?.next(fit.extent_world, demand)?);
+        }
+        let texel_world = self.policies[layer as usize].next(fit.extent_world, demand)?;
+        Ok(self.states[layer as usize].rest.texel(texel_world, fit.extent_world, self.settings))
+    }
+
+    /// What these texels achieve.
+    fn achieved(&self, fit: Fit, texels: [u32; 2], demand: Demand) -> (Fit, Size) {
+        let radius = match demand {
+            Demand::Radius(radius) => Some(radius.max(self.settings.radius_min_world)),
+            Demand::Nothing => None,
+        };
+        let size = size_achieved(texels, fit.extent_world, radius, &self.settings.relation);
+        (fit, size)
+    }
 }
 
 fn light_uniform(light: &Light, origin_world: DVec3, slices: &[Slice], first_map: u32, map_count: u32) -> LightUniform {
@@ -214,7 +229,7 @@ fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUnifor
 
 /// The part of the bias that does not depend on texels.
 fn rounding_world(fit: &Fit) -> f64 {
-    let anywhere = fit.world_from_plane(glam::DVec2::ZERO, fit.depth_far);
+    let anywhere = fit.world_from_plane(DVec2::ZERO, fit.depth_far);
     let facing = fit.light.towards_light(anywhere);
-    ReceiverPlane::new(fit, anywhere, facing, &Bias::without_texels(), glam::DVec2::ZERO).bias_world
+    ReceiverPlane::new(fit, anywhere, facing, &Bias::without_texels(), DVec2::ZERO).bias_world
 }

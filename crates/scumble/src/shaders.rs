@@ -10,6 +10,8 @@ const VSM: &str = include_str!("../shader/vsm.wgsl");
 const VISIBILITY: &str = include_str!("../shader/visibility.wgsl");
 const RECEIVES: &str = include_str!("../shader/receives.wgsl");
 const FRAGMENTS: &str = include_str!("../shader/fragments.wgsl");
+const CORNER: &str = include_str!("../shader/corner.wgsl");
+const CLASSIFY: &str = include_str!("../shader/classify.wgsl");
 const MEASURE: &str = include_str!("../shader/measure.wgsl");
 const VSM_MAP: &str = include_str!("../shader/vsm_map.wgsl");
 const VSM_REDUCE: &str = include_str!("../shader/vsm_reduce.wgsl");
@@ -17,9 +19,6 @@ const VSM_BOX: &str = include_str!("../shader/vsm_box.wgsl");
 
 /// The pass that clears a viewport.
 pub const CLEAR_WGSL: &str = include_str!("../shader/clear.wgsl");
-
-/// The pass that makes blocks of corners.
-pub const CLASSIFY_WGSL: &str = include_str!("../shader/classify.wgsl");
 
 /// Parts of `shadow_visibility`, in the order in which they are joined.
 const PARTS: [&str; 8] = [BINDINGS, SLICES, ROTATION, RECEIVER, PCF, PCSS, VSM, VISIBILITY];
@@ -41,7 +40,7 @@ pub fn shadow_wgsl(group: u32) -> String {
 
 /// The demand pass, for tests that look at it.
 pub fn measure_wgsl() -> String {
-    [&shadow_wgsl(0), RECEIVES, MEASURE].join("\n")
+    [&shadow_wgsl(0), RECEIVES, CORNER, MEASURE].join("\n")
 }
 
 /// WGSL to put after [`shadow_wgsl`], for renderers without a depth prepass: it declares the binding of
@@ -52,6 +51,11 @@ pub fn measure_wgsl() -> String {
 /// pixels.
 pub fn fragments_wgsl(group: u32) -> String {
     [RECEIVES, FRAGMENTS].join("\n").replace("@group(0)", &format!("@group({group})"))
+}
+
+/// The pass that makes blocks of corners, for tests that look at it.
+pub fn classify_wgsl() -> String {
+    [CORNER, CLASSIFY].join("\n")
 }
 
 /// The first pass of variance shadow maps, for tests that look at it.

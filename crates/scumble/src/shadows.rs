@@ -1,10 +1,10 @@
 //! The object that a renderer keeps: maps, bindings, sizes and the demand pass of all its shadowed lights.
 
-use scumble_core::{Aabb, Camera, Filter, Light, Seen, Settings, TexelPolicy};
+use scumble_core::{Aabb, Camera, Filter, Light, Rest, Seen, Settings, TexelPolicy};
 
 use crate::bindings::Bindings;
-use crate::counters::Counters;
-use crate::demand::{Reading, measure_scale};
+use crate::counters::{BlockCounts, Counters};
+use crate::demand::{Found, Reading, measure_scale};
 use crate::error::Error;
 use crate::maps::{MAP_FORMAT, Maps, depth_state};
 use crate::measure::{Lights, Measure, Readings, Request};
@@ -65,7 +65,7 @@ impl Shadows {
             Filter::Hard | Filter::Pcf { .. } | Filter::Pcss => None,
         };
         let bindings = Bindings::new(device, &maps, moments.as_ref());
-        let state = MapState { policy: TexelPolicy::new(&settings)?, measured: None };
+        let state = MapState { policy: TexelPolicy::new(&settings)?, rest: Rest::default(), measured: None };
         let counters = Counters {
             allocations: 1 + Bindings::ALLOCATIONS + moments.as_ref().map_or(1, Moments::allocations),
             map_bytes: maps.bytes() + moments.as_ref().map_or(0, Moments::bytes),
@@ -117,7 +117,7 @@ impl Shadows {
         }
         if (options.filter, options.cascades) != (self.options.filter, self.options.cascades) {
             for state in &mut self.states {
-                state.measured = None;
+                (state.measured, state.rest) = (None, Rest::default());
             }
         }
         self.options = options;
@@ -152,6 +152,8 @@ impl Shadows {
             self.uploaded.moments.iter().for_each(|task| moments.write(queue, task));
         }
         self.counters.texels = plan.texels();
+        self.counters.maps_skipped = plan.maps_skipped();
+        self.counters.maps_resting = plan.views.iter().filter(|view| view.is_resting).count() as u32;
         self.counters.moment_taps = self.uploaded.moments.iter().map(Task::taps).sum();
         self.counters.moment_blocks = self.uploaded.moments.iter().map(Task::blocks).sum();
         self.counters.taps_per_pixel = match self.options.filter {
@@ -283,15 +285,18 @@ impl Shadows {
     /// the caller submits or polls the device. Returns whether there was one. Until the first, sizes come from bounds.
     pub fn read_demand(&mut self) -> bool {
         let Some(taken) = self.measure.as_mut().and_then(|it| it.take(self.settings.statistic)) else { return false };
-        self.set_measured(taken.radii.into_iter());
+        self.set_measured(taken.maps.into_iter());
         self.seen = taken.seen;
         true
     }
 
-    /// Takes what was measured of the maps, by map, in the sense of [`MapState::measured`].
-    pub(crate) fn set_measured(&mut self, radii: impl Iterator<Item = Option<Option<f64>>>) {
-        for (state, radius) in self.states.iter_mut().zip(radii) {
-            state.measured = radius;
+    /// Takes what was found under the maps, by map; `None` where none was drawn.
+    pub(crate) fn set_measured(&mut self, maps: impl Iterator<Item = Option<Found>>) {
+        for (state, found) in self.states.iter_mut().zip(maps) {
+            state.measured = found;
+            if let Some(found) = found {
+                state.rest.saw(found.is_lit, &self.settings);
+            }
         }
         self.counters.readbacks_taken += 1;
     }
@@ -306,7 +311,14 @@ impl Shadows {
     #[must_use]
     pub fn measured_radius_world(&self, view: &View) -> Option<Option<f64>> {
         let measured = self.states.get(view.layer as usize)?.measured?;
-        Some(measured.map(|radius| radius * measure_scale(&view.fit)))
+        Some(measured.radius_per_scale.map(|radius| radius * measure_scale(&view.fit)))
+    }
+
+    /// The newest measurement's blocks of pixels that read a map in use, by what they pay; `None` before the first, and
+    /// where fragments tell the demand.
+    #[must_use]
+    pub fn measured_blocks(&self, view: &View) -> Option<BlockCounts> {
+        self.states.get(view.layer as usize)?.measured?.blocks
     }
 
     /// Forgets sizes and measurements, as after a cut.
@@ -316,7 +328,7 @@ impl Shadows {
     pub fn reset(&mut self) -> Result<(), Error> {
         let policy = TexelPolicy::new(&self.settings)?;
         for state in &mut self.states {
-            *state = MapState { policy: policy.clone(), measured: None };
+            *state = MapState { policy: policy.clone(), rest: Rest::default(), measured: None };
         }
         self.seen.clear();
         Ok(())

@@ -164,6 +164,8 @@ fn pack(vectors: &mut [[f32; 4]], points: &[glam::DVec2]) {
 pub struct MapDemand {
     /// Bits of the smallest radius; those of infinity where there is none.
     pub minimum_bits: u32,
+    /// Measured fragments that do not see all of the light.
+    pub shadowed: u32,
     /// Measured fragments with a penumbra, by the bits of their radius.
     pub counts: [u32; RadiusHistogram::BINS as usize],
 }
@@ -181,6 +183,8 @@ pub struct LightReceivers {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Measured {
+    /// By layer: blocks of pixels that are lit, dark and mixed.
+    pub blocks: [[u32; 3]; MAPS_MAX as usize],
     /// By layer.
     pub maps: [MapDemand; MAPS_MAX as usize],
     /// By light.

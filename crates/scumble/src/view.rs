@@ -28,6 +28,8 @@ pub struct View {
     pub radius_min_world: f64,
     /// Whether it is the net under slices that are fitted to what a picture showed: the map of all that has appeared since.
     pub is_net: bool,
+    /// Whether it is small because nothing on screen is in its shadow; see [`Rest`](scumble_core::Rest).
+    pub is_resting: bool,
     /// Half of the box, in clip space, in which points are looked up here and not in the net.
     pub inner: DVec2,
 }
@@ -58,6 +60,7 @@ impl View {
 pub struct Plan {
     pub(crate) camera: Camera,
     pub(crate) views: Vec<View>,
+    pub(crate) maps_needed: u32,
     pub(crate) policies: Vec<TexelPolicy>,
     pub(crate) uniform: LightsUniform,
 }
@@ -96,6 +99,12 @@ impl Plan {
     #[must_use]
     pub fn texels(&self) -> u64 {
         self.views.iter().map(View::texels).sum()
+    }
+
+    /// Maps of its lights that nothing on screen needs: they are neither drawn nor read.
+    #[must_use]
+    pub fn maps_skipped(&self) -> u32 {
+        self.maps_needed.saturating_sub(self.views.len() as u32)
     }
 
     /// What the shaders are told.

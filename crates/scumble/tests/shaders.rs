@@ -1,9 +1,10 @@
 //! Every shader is valid in every permutation; structs and constants are the same on both sides.
 
+use bytemuck::Zeroable;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use scumble::{
-    BLOCKER_TAPS, CASCADES_MAX, FILTER_OVERRIDE, LIGHT_MAPS_MAX, LIGHTS_MAX, MAPS_MAX, PCF_TAPS, filter_constant,
-    fragments_wgsl, measure_wgsl, shadow_wgsl, vsm_box_wgsl, vsm_reduce_wgsl,
+    BLOCKER_TAPS, CASCADES_MAX, FILTER_OVERRIDE, LIGHT_MAPS_MAX, LIGHTS_MAX, MAPS_MAX, PCF_TAPS, classify_wgsl,
+    filter_constant, fragments_wgsl, measure_wgsl, shadow_wgsl, vsm_box_wgsl, vsm_reduce_wgsl,
 };
 use scumble_core::Filter;
 
@@ -43,14 +44,8 @@ fn filters() -> [(&'static str, f64); 5] {
 #[test]
 fn every_shader_is_valid_with_every_filter() {
     let measured = [with_use(0), fragments_wgsl(1)].join("\n");
-    for source in [
-        with_use(0),
-        with_use(3),
-        measured,
-        measure_wgsl(),
-        scumble::CLEAR_WGSL.to_owned(),
-        scumble::CLASSIFY_WGSL.to_owned(),
-    ] {
+    for source in [with_use(0), with_use(3), measured, measure_wgsl(), scumble::CLEAR_WGSL.to_owned(), classify_wgsl()]
+    {
         let (module, info) = validate(&source);
         for (name, value) in filters() {
             let constants = if module.overrides.is_empty() {
@@ -185,9 +180,9 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
         [slice_ends, map_count, across_x, first_map, across_y, net_map, position, is_point]
     );
     assert_same_layout!(module, "ShadowLights", LightsUniform, [maps, lights, view_depth, block_px]);
-    assert_same_layout!(module, "MapDemand", MapDemand, [minimum_bits, counts]);
+    assert_same_layout!(module, "MapDemand", MapDemand, [minimum_bits, shadowed, counts]);
     assert_same_layout!(module, "LightReceivers", LightReceivers, [minima]);
-    assert_same_layout!(module, "Measured", Measured, [maps, receivers]);
+    assert_same_layout!(module, "Measured", Measured, [blocks, maps, receivers]);
     assert_same_layout!(module, "ShadowTaps", TapsUniform, [pcf, blocker]);
     assert_same_layout!(
         module,
@@ -239,6 +234,11 @@ fn constants_are_the_same_in_rust_and_wgsl() {
     let share = scumble::scumble_core::filter::SEARCH_SHARE as f32;
     assert_eq!(constant(&module, "SHADOW_SEARCH_SHARE"), f64::from(share));
     assert_eq!(scumble::MEASURE_NOTHING, f32::INFINITY.to_bits());
+    let classify = parse(&classify_wgsl());
+    let kinds = constant(&classify, "CLASSIFY_KINDS");
+    assert_eq!(constant(&classify, "CLASSIFY_COUNTS"), kinds * f64::from(MAPS_MAX));
+    assert_eq!(std::mem::size_of_val(&scumble::uniforms::Measured::zeroed().blocks[0]) as f64, 4.0 * kinds);
+    assert_eq!(std::mem::offset_of!(scumble::uniforms::Measured, blocks), 0, "the counts are the buffer's beginning");
     let kinds = ["HARD", "PCF", "PCSS", "VSM", "UPLOADED"].map(|name| format!("SHADOW_FILTER_{name}"));
     for (name, (_, value)) in kinds.into_iter().zip(filters()) {
         assert_eq!(constant(&module, &name), value, "{name}");

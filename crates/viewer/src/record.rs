@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::device::Gpu;
 use crate::setup::Setup;
-use scumble::{Plan, View};
+use scumble::{BlockCounts, View};
 
 /// One shadow map of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,6 +34,29 @@ pub struct MapRecord {
     pub radius_min_world: f64,
     /// Whether the demand asks for more than the cap.
     pub capped: bool,
+    /// Whether it is small because nothing on screen is in its shadow.
+    #[serde(default)]
+    pub resting: bool,
+    /// Blocks of pixels that read it, by what they pay; null where every pixel pays the filter.
+    #[serde(default)]
+    pub blocks: Option<BlocksRecord>,
+}
+
+/// Blocks of pixels of the last measured frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BlocksRecord {
+    /// Lit at every corner: one lookup a pixel that says so.
+    pub lit: u32,
+    /// Dark at every corner: likewise.
+    pub umbra: u32,
+    /// The filter at every pixel.
+    pub mixed: u32,
+}
+
+impl From<BlockCounts> for BlocksRecord {
+    fn from(BlockCounts { lit, umbra, mixed }: BlockCounts) -> Self {
+        Self { lit, umbra, mixed }
+    }
 }
 
 impl MapRecord {
@@ -43,12 +66,8 @@ impl MapRecord {
         side(0).max(side(1))
     }
 
-    /// The maps of a plan in a texture of `cap` texels a side.
-    pub fn of(plan: &Plan, cap: u32) -> Vec<Self> {
-        plan.views().iter().map(|view| Self::of_view(view, cap)).collect()
-    }
-
-    fn of_view(view: &View, cap: u32) -> Self {
+    /// A map in a texture of `cap` texels a side, and what was counted of it.
+    pub fn of(view: &View, cap: u32, blocks: Option<BlockCounts>) -> Self {
         let [width, height] = view.size_texels;
         Self {
             light: view.light,
@@ -61,6 +80,8 @@ impl MapRecord {
             c_effective: view.size.c_effective,
             radius_min_world: view.size.radius_min_world,
             capped: view.size.capped,
+            resting: view.is_resting,
+            blocks: blocks.map(BlocksRecord::from),
         }
     }
 }

@@ -89,7 +89,7 @@ pub fn run(options: &Shot) -> Result<()> {
         pcf_radius_plane: stage.setup.pcf_radius_plane,
         ratio: RatioRecord::of(&stage.setup),
         texels: plan.texels(),
-        maps: MapRecord::of(plan, variant.cap()),
+        maps: variant.map_records()?,
         demand,
         times_ms: medians.collect(),
         machine: MachineRecord::of(&stage.gpu),

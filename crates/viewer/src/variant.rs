@@ -10,6 +10,7 @@ use crate::cli::{Method, Size};
 use crate::evaluation::{EvaluationPass, Output};
 use crate::gbuffer::GBuffer;
 use crate::readback::read_texture;
+use crate::record::MapRecord;
 use crate::setup::Setup;
 use crate::stage::Stage;
 use crate::timer::{Timer, Times};
@@ -214,6 +215,13 @@ impl Variant {
     /// Texels per side of the texture that the map is a part of.
     pub fn cap(&self) -> u32 {
         self.shadows.settings().cap
+    }
+
+    /// The maps of the last frame, with the blocks of pixels that skipped the filter where some may.
+    pub fn map_records(&self) -> Result<Vec<MapRecord>> {
+        let skips = self.measures() && matches!(self.filter, Filter::Pcf { .. } | Filter::Pcss);
+        let blocks = |view| if skips { self.shadows.measured_blocks(view) } else { None };
+        Ok(self.plan()?.views().iter().map(|view| MapRecord::of(view, self.cap(), blocks(view))).collect())
     }
 
     /// What the drop-in counted.

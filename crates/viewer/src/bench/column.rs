@@ -80,6 +80,27 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         ),
         column("taps_per_pixel", "map lookups of a pixel at most", Box::new(|row| row.taps_per_pixel.to_string())),
         column(
+            "blocks_skipped",
+            "blocks of 4 x 4 pixels that one lookup a pixel is enough for, where it says what they are; empty where every pixel \
+             is filtered",
+            Box::new(|row| row.blocks().map(|[skip, _]| skip.to_string()).unwrap_or_default()),
+        ),
+        column(
+            "blocks_filtered",
+            "blocks with a receiver that pay the filter at every pixel; likewise",
+            Box::new(|row| row.blocks().map(|[_, pay]| pay.to_string()).unwrap_or_default()),
+        ),
+        column(
+            "maps_skipped",
+            "maps of the light that nothing on screen needs: neither drawn nor read",
+            Box::new(|row| row.maps_skipped.to_string()),
+        ),
+        column(
+            "maps_resting",
+            "maps that are small because nothing on screen is in their shadow",
+            Box::new(|row| row.maps.iter().filter(|map| map.resting).count().to_string()),
+        ),
+        column(
             "c_effective",
             "radius of the demand in texels of the map that meets it least; the ratio asked for where nothing was demanded",
             Box::new(|row| number(row.c_effective())),

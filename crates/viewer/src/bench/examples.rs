@@ -24,6 +24,7 @@ pub fn row(scene: &str, method: &str, size: &str, total_ms: f64, error: f64) -> 
         passes: 2,
         allocations: 0,
         taps_per_pixel: 25,
+        maps_skipped: 0,
         times_ms: BTreeMap::from([("total".into(), total)]),
         comparison: Comparison {
             lit_facing: differences,

@@ -141,6 +141,9 @@ pub struct Row {
     pub allocations: u64,
     /// Map lookups of one pixel at most.
     pub taps_per_pixel: u32,
+    /// Maps of the light and its slices that nothing on screen needs.
+    #[serde(default)]
+    pub maps_skipped: u32,
     /// Times on the device.
     pub times_ms: Spreads,
     /// Errors against the truth of the kernel.
@@ -161,7 +164,7 @@ impl Row {
     ) -> Result<Self> {
         let plan = variant.plan()?;
         let counters = variant.counters();
-        let maps = MapRecord::of(plan, variant.cap());
+        let maps = variant.map_records()?;
         let moment_passes = if counters.moment_blocks > 0 { MOMENT_PASSES } else { 0 };
         let pictures = files.into_iter().map(|(name, path)| (name.to_owned(), relative(&path, out))).collect();
         Ok(Self {
@@ -174,6 +177,7 @@ impl Row {
             bytes_allocated: counters.map_bytes,
             allocations: variant.allocations_since_rest(),
             taps_per_pixel: counters.taps_per_pixel,
+            maps_skipped: counters.maps_skipped,
             times_ms,
             comparison,
             pictures,
@@ -188,6 +192,13 @@ impl Row {
     /// Whether the screen asks for more texels than a map has.
     pub fn is_capped(&self) -> bool {
         self.maps.iter().any(|map| map.capped)
+    }
+
+    /// Blocks of pixels that skip the filter and blocks that pay it, all maps together; `None` where all pay.
+    pub fn blocks(&self) -> Option<[u32; 2]> {
+        let blocks: Vec<_> = self.maps.iter().filter_map(|map| map.blocks).collect();
+        let skip = blocks.iter().map(|blocks| blocks.lit + blocks.umbra).sum();
+        (!blocks.is_empty()).then(|| [skip, blocks.iter().map(|blocks| blocks.mixed).sum()])
     }
 
     /// Sides of the maps: `677 x 440`, `512 x 512 + 300 x 280`.
