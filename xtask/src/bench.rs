@@ -37,8 +37,7 @@ pub fn run(quick: bool) -> Result<()> {
 }
 
 fn bench(options: &[&str], out: &Path, cache: &Path, quick: bool) -> Result<()> {
-    let paths = [out.display().to_string(), cache.display().to_string()];
-    let mut arguments = vec!["bench", "--out", &paths[0], "--cache", &paths[1]];
+    let mut arguments = vec!["bench", "--out", run::text(out)?, "--cache", run::text(cache)?];
     arguments.extend(options);
     arguments.extend(quick.then_some("--quick"));
     run::program("scumble-viewer", &arguments)

@@ -7,7 +7,6 @@
 
 use crate::{packages, run};
 use anyhow::{Result, ensure};
-use std::path::Path;
 
 /// The package, as npm names it.
 const PACKAGE: &str = "bids-validator@1.15.0";
@@ -47,16 +46,12 @@ fn provide() -> Result<()> {
         std::fs::remove_dir_all(&partial)?;
     }
     std::fs::create_dir_all(&partial)?;
-    let place = text(&partial)?;
+    let place = run::text(&partial)?;
     println!("Fetching {PACKAGE} into {}", folder.display());
     let fetched = run::output(NPM, &["pack", PACKAGE, "--json", "--ignore-scripts", "--pack-destination", place])?;
     ensure!(fetched.contains(INTEGRITY), "{PACKAGE} is not what it was: npm says {fetched}; allowed is {INTEGRITY}");
     let archive = partial.join(ARCHIVE);
-    run::output("tar", &[&["-xzf", text(&archive)?, "-C", place], &PARTS[..]].concat())?;
+    run::output("tar", &[&["-xzf", run::text(&archive)?, "-C", place], &PARTS[..]].concat())?;
     std::fs::remove_file(archive)?;
     Ok(std::fs::rename(partial, folder)?)
-}
-
-fn text(path: &Path) -> Result<&str> {
-    path.to_str().ok_or_else(|| anyhow::anyhow!("{} is not valid Unicode", path.display()))
 }

@@ -32,17 +32,17 @@ pub fn run(quick: bool) -> Result<Summary> {
     start_afresh(&folder)?;
 
     println!("\n1/5  Stimuli: what a participant sees");
-    run::program("examples/sheet", &[path(&folder.join("stimuli.png"))?])?;
+    run::program("examples/sheet", &[run::text(&folder.join("stimuli.png"))?])?;
 
     println!("\n2/5  Study: {OBSERVERS} simulated observers, true ratio {TRUE_RATIO}");
     let sessions = folder.join("sessions");
     let ratio = TRUE_RATIO.to_string();
     let simulate = ["simulate", "--observers", OBSERVERS, "--seed", SEED, "--ratio", &ratio, "--out"];
-    run::program("scumble-analysis", &[&simulate[..], &[path(&sessions)?]].concat())?;
+    run::program("scumble-analysis", &[&simulate[..], &[run::text(&sessions)?]].concat())?;
 
     println!("\n3/5  Analysis: thresholds, then the relation");
     let study = folder.join("study");
-    run::program("scumble-analysis", &["fit", path(&sessions)?, "--out", path(&study)?])?;
+    run::program("scumble-analysis", &["fit", run::text(&sessions)?, "--out", run::text(&study)?])?;
     let relation = folder.join("relation.json");
     std::fs::copy(study.join("relation.json"), &relation)
         .with_context(|| format!("cannot copy the relation to {}", relation.display()))?;
@@ -51,7 +51,7 @@ pub fn run(quick: bool) -> Result<Summary> {
     let bench = folder.join("bench");
     let mut render = vec!["bench", "--scenes", SCENES, "--sizes", "2048,adaptive"];
     let cache = run::truth_cache();
-    render.extend(["--relation", path(&relation)?, "--out", path(&bench)?, "--cache", path(&cache)?]);
+    render.extend(["--relation", run::text(&relation)?, "--out", run::text(&bench)?, "--cache", run::text(&cache)?]);
     if quick {
         render.push("--quick");
     }
@@ -80,8 +80,4 @@ fn start_afresh(folder: &Path) -> Result<()> {
         std::fs::remove_dir_all(folder).with_context(|| format!("cannot clear {}", folder.display()))?;
     }
     std::fs::create_dir_all(folder).with_context(|| format!("cannot create {}", folder.display()))
-}
-
-fn path(path: &Path) -> Result<&str> {
-    path.to_str().with_context(|| format!("{} is not valid Unicode", path.display()))
 }

@@ -36,9 +36,9 @@ enum Task {
         #[arg(long)]
         quick: bool,
     },
-    /// Measure the trade of time and accuracy on every scene, and the headline of the thesis
+    /// Measure the trade of time and accuracy on every scene, what ratio and statistic choose, and the headline of the thesis
     ///
-    /// Writes target/bench/trade and target/bench/headline, each with report.html, bench.csv, bench.json and bench.md. Takes an
+    /// Writes target/bench/trade, choices and headline, each with report.html, bench.csv, bench.json and bench.md. Takes an
     /// hour or two on a software renderer; a run that was killed goes on.
     Bench {
         /// A quarter of the pixels, fewer rays: minutes

@@ -26,14 +26,13 @@ fn provide() -> Result<()> {
     }
     let folder = run::target_directory().join("tools").join("python");
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let text = |path: &std::path::Path| path.display().to_string();
-    if run::output(&text(&python), &["-c", "import pandas, matplotlib"]).is_ok() {
+    if run::output(run::text(&python)?, &["-c", "import pandas, matplotlib"]).is_ok() {
         return Ok(());
     }
     println!("Installing {} into {}", LIBRARIES.join(" and "), folder.display());
-    run::output(PYTHON, &["-m", "venv", "--clear", &text(&folder)])?;
+    run::output(PYTHON, &["-m", "venv", "--clear", run::text(&folder)?])?;
     run::output(
-        &text(&python),
+        run::text(&python)?,
         &[&["-m", "pip", "install", "--quiet", "--only-binary=:all:"], &LIBRARIES[..]].concat(),
     )?;
     Ok(())

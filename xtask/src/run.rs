@@ -1,7 +1,7 @@
 //! Child processes: their commands are shown, their failure is an error that repeats the command.
 
 use anyhow::{Context, Result, bail};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Without it Mesa complains of a missing `XDG_RUNTIME_DIR` wherever there is no desktop.
@@ -56,6 +56,11 @@ pub fn program(name: &str, arguments: &[&str]) -> Result<()> {
         .with_context(|| format!("could not start {}", file.display()))?;
     anyhow::ensure!(status.success(), "`{name} {}` ended with {status}", arguments.join(" "));
     Ok(())
+}
+
+/// A path as an argument of a program.
+pub fn text(path: &Path) -> Result<&str> {
+    path.to_str().with_context(|| format!("{} is not valid Unicode", path.display()))
 }
 
 /// The workspace's root folder.

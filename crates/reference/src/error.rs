@@ -59,19 +59,6 @@ pub enum Error {
         /// Number of frames.
         frames: usize,
     },
-    /// A filter or a texel without a size.
-    #[error(
-        "pixel {pixel} has a filter of radius {radius} and a texel of {texel}: allowed are a finite radius of at least \
-         0 and a finite texel above 0"
-    )]
-    Filter {
-        /// Index of the pixel.
-        pixel: usize,
-        /// Radius of its filter.
-        radius: f32,
-        /// Texel of the map there.
-        texel: f32,
-    },
     /// A viewing condition of no screen.
     #[error("{found} pixels per degree of vision: allowed are {} to {}", allowed.start(), allowed.end())]
     PixelsPerDegree {

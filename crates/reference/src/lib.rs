@@ -12,7 +12,7 @@
 //! * [`edge_displacement`]: how far a shadow's edge is from where it should be, in pixels.
 //! * [`edge_tilt`]: how far it turns away from the true edge, against what observers see.
 //! * [`flip`](flip()): how different two pictures look on a screen.
-//! * [`error_parts`]: what part of an error is noise. [`violation_share`]: where a filter is too narrow for its texel.
+//! * [`error_parts`]: what part of an error is noise.
 //! * [`pop`](pop()) and [`shimmer`](shimmer()): what changes when the map's size does, and when the camera creeps.
 //!
 //! * Closed forms: [`slit_under_disc`], [`disc_under_disc`], [`polygon_under_disc`], [`half_plane_under_rectangle`] and
@@ -20,7 +20,7 @@
 //!   occluder's outline is multiplied by the distance of the light over its own, and divided by the light's radius.
 //!
 //! Rays are checked against closed forms (`tests/closed_forms.rs`), closed forms by counting and against each other.
-//! Not goals: other filters than the renderer's, lights that are no discs.
+//! Not goals: other filters than the renderer's, lights that are neither discs nor spheres.
 
 mod check;
 mod closed_form;
@@ -42,7 +42,6 @@ mod rays;
 mod shimmer;
 mod tap;
 mod triangle;
-mod violation;
 mod weighted;
 
 pub use closed_form::{
@@ -62,4 +61,3 @@ pub use pop::{Pop, pop};
 pub use rays::{Hit, Rays};
 pub use shimmer::{Shimmer, shimmer};
 pub use triangle::Skipped;
-pub use violation::{Violation, violation_share};

@@ -3,8 +3,10 @@
 //! A lamp is the disc of its radius about its position, across its direction. A sun is the disc of directions
 //! `d + tan(half angle) (u, v)` about its direction, uniform in the tangent plane: what the similar triangles of PCSS
 //! mean. Uniform in solid angle it would differ by at most `cos^-3(half angle)` in density, 3e-5 for the sun's own size
-//! and 1 % at 5 degrees. Every point of the light counts alike: visibility is a share of its area, which shading
-//! multiplies with the rest. A spot's cone is shading too.
+//! and 1 % at 5 degrees. A point light is a sphere, seen as the disc of its radius R about its position, across the way
+//! to the receiver: at the distance D the rim of a sphere looks wider, by the share `(R / D)^2 / 2`. Every point of the
+//! light counts alike: visibility is a share of its area, which shading multiplies with the rest. A spot's cone is shading
+//! too.
 //!
 //! A ray starts [`Rays::epsilon`] above the receiver, on the side of its normal, so that a surface does not shade itself.
 //! Light from below the tangent plane does not reach it. Concave folds need nothing more: this is the light itself.
