@@ -47,6 +47,7 @@
 
 mod aabb;
 mod bias;
+mod budget;
 mod camera;
 mod cascade;
 mod error;
@@ -69,6 +70,7 @@ mod statistic;
 
 pub use aabb::Aabb;
 pub use bias::{Bias, ReceiverPlane};
+pub use budget::{Budget, given_way, texels_at_most};
 pub use camera::Camera;
 pub use cascade::{Cascade, cascades, slices_of};
 pub use error::Error;

@@ -22,7 +22,7 @@ use crate::settings::Settings;
 const RUNGS_PER_OCTAVE: f64 = 4.0;
 
 /// Share by which a box may grow before a rung that the cap took away, and gave back, is taken away again.
-const ROOM: f64 = 0.1;
+pub(crate) const ROOM: f64 = 0.1;
 
 /// What the screen asks of a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,12 +75,17 @@ pub struct TexelPolicy {
 }
 
 impl TexelPolicy {
-    /// A map without a texel yet.
+    /// A map without a texel yet. Under a [budget](Settings::budget_bytes) its texels are what it asks for, whatever the cap;
+    /// [`given_way`](crate::given_way) is for that.
     ///
     /// # Errors
     /// As [`Settings::checked`].
     pub fn new(settings: &Settings) -> Result<Self, Error> {
-        Ok(Self { settings: settings.checked()?, axes: [Axis::default(); 2] })
+        let mut settings = settings.checked()?;
+        if settings.budget_bytes.is_some() {
+            settings.cap = Settings::CAP_MAX;
+        }
+        Ok(Self { settings, axes: [Axis::default(); 2] })
     }
 
     /// Width and height of the texel for the next frame, in metres at the reference plane, of a map whose box measures
@@ -148,6 +153,11 @@ impl Axis {
 /// Side of a rung's texel, metres.
 pub(crate) fn texel(rung: i32) -> f64 {
     (-f64::from(rung) / RUNGS_PER_OCTAVE).exp2()
+}
+
+/// The rung whose texel is nearest to this one.
+pub(crate) fn rung_of(texel: f64) -> i32 {
+    (-RUNGS_PER_OCTAVE * texel.log2()).round() as i32
 }
 
 /// The coarsest rung whose texel is at most this large; the last there is for a texel of 0.

@@ -73,6 +73,9 @@ pub struct Settings {
     pub cap: u32,
     /// Least texels per side.
     pub floor: u32,
+    /// Most bytes that all maps together take, allocated and used; `None` for one of `cap` squared texels for each. Maps that
+    /// ask for more give way together: see [`Budget`](crate::Budget).
+    pub budget_bytes: Option<u64>,
     /// No texel is asked to be smaller than this, in metres at the reference plane; 0 for no such limit.
     pub texel_floor_world: f64,
     /// No texel is asked to be smaller than this many pixels: the texel below a pixel cannot be seen.
@@ -102,6 +105,7 @@ impl Default for Settings {
             statistic: Statistic::default(),
             cap: 4096,
             floor: 8,
+            budget_bytes: None,
             texel_floor_world: 0.0,
             footprint_kappa: 1.0,
             radius_min_world: 0.0,

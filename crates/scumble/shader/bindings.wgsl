@@ -64,7 +64,8 @@ struct ShadowMap {
     is_sphere: u32,
     // Half of the box, in clip space, in which points are looked up here and not in the light's net.
     inner: vec2f,
-    padding: vec2u,
+    // Corner of the viewport in the layer, whole texels.
+    origin_texels: vec2f,
 }
 
 // The maps of a light: consecutive, one for each slice of the view from the nearest on, or for each face of a point light.

@@ -5,7 +5,8 @@
 // outside is lit.
 fn shadow_tap(map: u32, texel: vec2f, depth: f32) -> f32 {
     let viewport = shadow_lights.maps[map].viewport_texels;
-    let place = clamp(texel, vec2f(0.5), viewport - 0.5) / vec2f(textureDimensions(shadow_maps));
+    let in_layer = shadow_lights.maps[map].origin_texels + clamp(texel, vec2f(0.5), viewport - 0.5);
+    let place = in_layer / vec2f(textureDimensions(shadow_maps));
     let layer = shadow_lights.maps[map].layer;
     let visibility = textureSampleCompareLevel(shadow_maps, shadow_sampler, place, layer, depth);
     let is_inside = all(texel >= vec2f(0.0)) && all(texel <= viewport);

@@ -35,6 +35,7 @@ fn shadow_search_radius(map: u32, receiver_depth: f32) -> f32 {
 // Map depths in front of the receiver's tangent plane within `radius_plane`, one texel a tap.
 fn shadow_find_blockers(map: u32, receiver: ShadowReceiver, radius_plane: f32, rotation: mat2x2f) -> ShadowBlockers {
     let viewport = shadow_lights.maps[map].viewport_texels;
+    let origin = vec2i(shadow_lights.maps[map].origin_texels);
     let layer = shadow_lights.maps[map].layer;
     var count = 0u;
     var sum = 0.0;
@@ -43,7 +44,7 @@ fn shadow_find_blockers(map: u32, receiver: ShadowReceiver, radius_plane: f32, r
         let tap = select(pair.xy, pair.zw, (i & 1u) == 1u);
         let offset = radius_plane * (rotation * tap);
         let texel = receiver.texel + offset * shadow_lights.maps[map].texel_from_plane;
-        let place = vec2i(clamp(texel, vec2f(0.0), viewport - 1.0));
+        let place = vec2i(clamp(texel, vec2f(0.0), viewport - 1.0)) + origin;
         let depth = textureLoad(shadow_maps, place, layer, 0);
         let is_inside = all(texel >= vec2f(0.0)) && all(texel < viewport);
         if is_inside && depth < shadow_depth_at(receiver, offset) {

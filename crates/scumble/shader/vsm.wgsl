@@ -13,7 +13,8 @@ fn shadow_linear_depth(map: u32, map_depth: f32) -> f32 {
     return near_over_far * map_depth / (1.0 - map_depth * (1.0 - near_over_far));
 }
 
-// Mean and variance at a place of the viewport in texels, bilinear between the middles of blocks.
+// Mean and variance at a place of the viewport in texels, bilinear between the middles of blocks. A map's blocks begin where
+// its texels do: they are no more.
 fn shadow_moments_at(map: u32, texel: vec2f) -> vec2f {
     let block = shadow_lights.maps[map].moment_block;
     let layer = shadow_lights.maps[map].layer;
@@ -21,8 +22,9 @@ fn shadow_moments_at(map: u32, texel: vec2f) -> vec2f {
     let place = texel / block - 0.5;
     let corner = vec2i(floor(place));
     let share = place - floor(place);
-    let low = clamp(corner, vec2i(0), last);
-    let high = clamp(corner + 1, vec2i(0), last);
+    let origin = vec2i(shadow_lights.maps[map].origin_texels);
+    let low = origin + clamp(corner, vec2i(0), last);
+    let high = origin + clamp(corner + 1, vec2i(0), last);
     let a = textureLoad(shadow_moments, low, layer, 0).xy;
     let b = textureLoad(shadow_moments, vec2i(high.x, low.y), layer, 0).xy;
     let c = textureLoad(shadow_moments, vec2i(low.x, high.y), layer, 0).xy;

@@ -16,9 +16,9 @@ fn box_blocks(@builtin(global_invocation_id) invocation: vec3u) {
     if any(invocation.xy >= size) {
         return;
     }
-    let at = vec2i(invocation.xy);
+    let at = vec2i(moments.origin + invocation.xy);
     let along = select(vec2i(1, 0), vec2i(0, 1), box_axis == 1u);
-    let middle = at[box_axis];
+    let middle = i32(invocation[box_axis]);
     let last = i32(size[box_axis]) - 1;
     let edge = max(moments.radius[box_axis], 0.5) + 0.5;
     let reach = i32(ceil(edge)) - 1;

@@ -3,6 +3,8 @@
 struct Moments {
     // Size of the map's viewport, texels.
     viewport: vec2u,
+    // Corner of the viewport in its layer, and of the blocks in theirs.
+    origin: vec2u,
     // Texels of a block along x and y.
     block: vec2u,
     // Half sides of the kernel, blocks.

@@ -8,7 +8,7 @@
 @group(0) @binding(2) var reduced: texture_storage_2d<rg32float, write>;
 
 fn linear_depth(texel: vec2u) -> f32 {
-    let depth = textureLoad(map, texel, 0);
+    let depth = textureLoad(map, moments.origin + texel, 0);
     return moments.near_over_far * depth / (1.0 - depth * (1.0 - moments.near_over_far));
 }
 
@@ -32,5 +32,5 @@ fn reduce_blocks(@builtin(global_invocation_id) invocation: vec3u) {
     let size = end - first;
     let count = f32(size.x * size.y);
     let shift = sum / count;
-    textureStore(reduced, invocation.xy, vec4f(middle + shift, max(squares / count - shift * shift, 0.0), 0.0, 0.0));
+    textureStore(reduced, moments.origin + invocation.xy, vec4f(middle + shift, max(squares / count - shift * shift, 0.0), 0.0, 0.0));
 }

@@ -21,6 +21,27 @@ pub enum Error {
         /// What the device allows.
         device_limit: u32,
     },
+    /// A budget that holds no maps.
+    #[error("the budget is {found} bytes; {maps} maps of the least size need {least} (`Settings::budget_bytes`)")]
+    Budget {
+        /// What the settings say, bytes.
+        found: u64,
+        /// Least that would do, bytes.
+        least: u64,
+        /// Maps that were asked for.
+        maps: u32,
+    },
+    /// Fixed sizes that do not lie beside each other within the budget.
+    #[error(
+        "{maps} maps of the fixed size do not fit the budget's page of {side} x {side} texels; smaller ones, or a larger \
+         `Settings::budget_bytes`, are possible"
+    )]
+    BeyondBudget {
+        /// Maps of the plan.
+        maps: usize,
+        /// Side of the page, texels.
+        side: u32,
+    },
     /// The number of maps is not possible.
     #[error("{found} maps were asked for; 1 to {MAPS_MAX} are possible")]
     MapCount {

@@ -35,6 +35,7 @@
 //! them ([`Options::cascades`]), a spot has one, a point light up to six: faces of 90 degrees and what its filter reaches
 //! beyond them, each fitted to what is seen in it and with a size of its own, none where nothing is seen.
 
+mod atlas;
 mod bindings;
 mod blocks;
 mod counters;
@@ -50,6 +51,7 @@ mod readback;
 mod seen;
 mod shaders;
 mod shadows;
+mod share;
 mod slices;
 pub mod uniforms;
 mod view;

@@ -1,5 +1,6 @@
 //! The texture that holds every map: one layer a map, allocated once at the cap, of which views use a corner
-//! (Kreuzer 2017, Fig. 5.5). Nothing here is created again when a size changes.
+//! (Kreuzer 2017, Fig. 5.5); or under a budget one page, which the plan [packs](crate::atlas). Nothing here is created
+//! again when a size changes.
 
 use crate::view::View;
 
@@ -9,7 +10,7 @@ pub const MAP_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// The texture, a render view a layer and the pipeline that clears a viewport.
 #[derive(Debug)]
 pub struct Maps {
-    cap: u32,
+    side: u32,
     layers: Vec<wgpu::TextureView>,
     sampled: wgpu::TextureView,
     texture: wgpu::Texture,
@@ -17,11 +18,11 @@ pub struct Maps {
 }
 
 impl Maps {
-    /// Allocates `count` layers of `cap` squared texels.
-    pub fn new(device: &wgpu::Device, cap: u32, count: u32) -> Self {
+    /// Allocates `count` layers of `side` squared texels.
+    pub fn new(device: &wgpu::Device, side: u32, count: u32) -> Self {
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("scumble maps"),
-            size: wgpu::Extent3d { width: cap, height: cap, depth_or_array_layers: count },
+            size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: count },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -47,12 +48,12 @@ impl Maps {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
-        Self { cap, layers, sampled, texture, clear: clear_pipeline(device) }
+        Self { side, layers, sampled, texture, clear: clear_pipeline(device) }
     }
 
     /// Texels per side.
-    pub fn cap(&self) -> u32 {
-        self.cap
+    pub fn side(&self) -> u32 {
+        self.side
     }
 
     /// Each layer by itself.
@@ -72,7 +73,7 @@ impl Maps {
 
     /// Bytes of the texture.
     pub fn bytes(&self) -> u64 {
-        u64::from(self.cap) * u64::from(self.cap) * 4 * self.layers.len() as u64
+        u64::from(self.side) * u64::from(self.side) * 4 * self.layers.len() as u64
     }
 
     /// Begins a depth-only pass whose viewport and scissor are the view's, cleared to map depth 1.
@@ -81,8 +82,9 @@ impl Maps {
         encoder: &'encoder mut wgpu::CommandEncoder,
         view: &View,
     ) -> wgpu::RenderPass<'encoder> {
-        let [width, height] = view.size_texels.map(|side| side.clamp(1, self.cap));
-        let whole_layer = width == self.cap && height == self.cap;
+        let [width, height] = view.size_texels.map(|side| side.clamp(1, self.side));
+        let whole_layer = width == self.side && height == self.side;
+        let [x, y] = [view.origin_texels[0].min(self.side - width), view.origin_texels[1].min(self.side - height)];
         let layer = (view.layer as usize).min(self.layers.len() - 1);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("scumble map"),
@@ -99,8 +101,8 @@ impl Maps {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, 1.0);
-        pass.set_scissor_rect(0, 0, width, height);
+        pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+        pass.set_scissor_rect(x, y, width, height);
         if !whole_layer {
             pass.set_pipeline(&self.clear);
             pass.draw(0..3, 0..1);

@@ -2,7 +2,7 @@
 //!
 //! Three dispatches a map, `reduce` (blocks of texels), `box` along x, `box` along y. The last writes into the texture that
 //! shaders read; the middle one into a texture that all maps take turns with. [`scumble_core::moments`] has the formulas.
-//! Everything is allocated once, at the cap: 8 bytes a texel of each map and of the texture between. Rg32Float because
+//! Everything is allocated once, at the size of the maps' texture: 8 bytes a texel of each layer and of the texture between. Rg32Float because
 //! core WebGPU stores to it and 16 bits do not hold depth; a variance is not blended, so nothing needs its filtering.
 
 use glam::DVec2;
@@ -18,7 +18,7 @@ use crate::view::View;
 /// Mean and variance.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
 /// Bytes of a texel of [`FORMAT`].
-const TEXEL_BYTES: u64 = 8;
+pub const TEXEL_BYTES: u64 = 8;
 /// Side of a work group in blocks; the shaders' `@workgroup_size`.
 const GROUP_SIDE: u32 = 8;
 /// Bytes from one map's uniforms to the next: the largest alignment that a device may ask for.
@@ -29,7 +29,7 @@ const UNIFORM_STRIDE: u64 = 256;
 pub struct Moments {
     filtered: wgpu::TextureView,
     uniforms: wgpu::Buffer,
-    layers: Vec<Layer>,
+    maps: Vec<Map>,
     reduce: wgpu::ComputePipeline,
     along: [wgpu::ComputePipeline; 2],
     bytes: u64,
@@ -37,7 +37,7 @@ pub struct Moments {
 
 /// The bind groups of one map.
 #[derive(Debug)]
-struct Layer {
+struct Map {
     reduce: wgpu::BindGroup,
     along: [wgpu::BindGroup; 2],
 }
@@ -45,8 +45,8 @@ struct Layer {
 /// What the passes have to do for one map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Task {
-    /// Layer of the map texture.
-    pub layer: u32,
+    /// Number of the map.
+    pub map: u32,
     /// What the shaders are told.
     pub uniform: MomentsUniform,
 }
@@ -57,9 +57,10 @@ impl Task {
         let radius = radius_world / view.texel_world();
         let block = blocks_of(view.texel_world(), radius_world);
         Self {
-            layer: view.layer,
+            map: view.map,
             uniform: MomentsUniform {
                 viewport: view.size_texels,
+                origin: view.origin_texels,
                 block,
                 radius: (radius / DVec2::new(f64::from(block[0]), f64::from(block[1]))).as_vec2().to_array(),
                 near_over_far: near_over_far(&view.fit) as f32,
@@ -132,20 +133,20 @@ pub fn sampled_binding(view_dimension: wgpu::TextureViewDimension) -> wgpu::Bind
 }
 
 impl Moments {
-    /// Allocates for all of `maps`.
+    /// Allocates for `count` maps in the layers of `maps`, one each or all in the first.
     ///
     /// # Errors
     /// A device without compute shaders that store to textures.
-    pub fn new(device: &wgpu::Device, maps: &Maps) -> Result<Self, Error> {
+    pub fn new(device: &wgpu::Device, maps: &Maps, count: u32) -> Result<Self, Error> {
         let limits = device.limits();
         let has_compute = limits.max_compute_workgroups_per_dimension > 0;
         let found = if has_compute { limits.max_storage_textures_per_shader_stage } else { 0 };
         if found == 0 {
             return Err(Error::NoMoments { found });
         }
-        let count = maps.layers().len() as u32;
-        let (texture, filtered) = moments_texture(device, maps.cap(), count);
-        let (between, _) = moments_texture(device, maps.cap(), 1);
+        let layer_count = maps.layers().len() as u32;
+        let (texture, filtered) = moments_texture(device, maps.side(), layer_count);
+        let (between, _) = moments_texture(device, maps.side(), 1);
         let between = between.create_view(&wgpu::TextureViewDescriptor::default());
         let uniforms = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("scumble moments"),
@@ -166,9 +167,10 @@ impl Moments {
         let along = [0.0, 1.0]
             .map(|axis| pipeline(device, &from_moments, &vsm_box_wgsl(), "box_blocks", &[("box_axis", axis)]));
 
-        let layers = (0..count)
-            .zip(maps.layers())
-            .map(|(layer, map)| {
+        let maps_of_layers = (0..layer_count).zip(maps.layers()).cycle();
+        let groups = (0..count)
+            .zip(maps_of_layers)
+            .map(|(number, (layer, map))| {
                 let own = texture.create_view(&wgpu::TextureViewDescriptor {
                     dimension: Some(wgpu::TextureViewDimension::D2),
                     base_array_layer: layer,
@@ -176,21 +178,21 @@ impl Moments {
                     ..Default::default()
                 });
                 let group = |layout: &wgpu::BindGroupLayout, from: &wgpu::TextureView, to: &wgpu::TextureView| {
-                    group(device, layout, &uniforms, layer, from, to)
+                    group(device, layout, &uniforms, number, from, to)
                 };
-                Layer {
+                Map {
                     reduce: group(&from_depth, map, &own),
                     along: [group(&from_moments, &own, &between), group(&from_moments, &between, &own)],
                 }
             })
             .collect();
-        let bytes = TEXEL_BYTES * u64::from(maps.cap()).pow(2) * u64::from(count + 1);
-        Ok(Self { filtered, uniforms, layers, reduce, along, bytes })
+        let bytes = TEXEL_BYTES * u64::from(maps.side()).pow(2) * u64::from(layer_count + 1);
+        Ok(Self { filtered, uniforms, maps: groups, reduce, along, bytes })
     }
 
     /// Textures, buffers and bind groups created.
     pub fn allocations(&self) -> u64 {
-        3 + 3 * self.layers.len() as u64
+        3 + 3 * self.maps.len() as u64
     }
 
     /// Bytes of both textures.
@@ -205,7 +207,7 @@ impl Moments {
 
     /// Tells the passes of a map with the queue's next submission.
     pub fn write(&self, queue: &wgpu::Queue, task: &Task) {
-        let offset = u64::from(task.layer) * UNIFORM_STRIDE;
+        let offset = u64::from(task.map) * UNIFORM_STRIDE;
         queue.write_buffer(&self.uniforms, offset, bytemuck::bytes_of(&task.uniform));
     }
 
@@ -216,11 +218,11 @@ impl Moments {
             timestamp_writes: None,
         });
         for task in tasks {
-            let layer = &self.layers[(task.layer as usize).min(self.layers.len() - 1)];
+            let map = &self.maps[(task.map as usize).min(self.maps.len() - 1)];
             let [across, down] = task.size().map(|side| side.div_ceil(GROUP_SIDE));
             let [along_x, along_y] = &self.along;
-            let [rows, columns] = &layer.along;
-            for (pipeline, group) in [(&self.reduce, &layer.reduce), (along_x, rows), (along_y, columns)] {
+            let [rows, columns] = &map.along;
+            for (pipeline, group) in [(&self.reduce, &map.reduce), (along_x, rows), (along_y, columns)] {
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, group, &[]);
                 pass.dispatch_workgroups(across, down, 1);
@@ -252,13 +254,13 @@ fn group(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     uniforms: &wgpu::Buffer,
-    layer: u32,
+    map: u32,
     from: &wgpu::TextureView,
     to: &wgpu::TextureView,
 ) -> wgpu::BindGroup {
     let uniform = wgpu::BufferBinding {
         buffer: uniforms,
-        offset: u64::from(layer) * UNIFORM_STRIDE,
+        offset: u64::from(map) * UNIFORM_STRIDE,
         size: wgpu::BufferSize::new(size_of::<MomentsUniform>() as u64),
     };
     device.create_bind_group(&wgpu::BindGroupDescriptor {

@@ -26,8 +26,9 @@ pub struct Options {
     pub size: SizeChoice,
     /// Whether maps are fitted to what the camera can see (Kreuzer 2017, 3.4.2); else they cover the scene.
     pub fitted: bool,
-    /// Layers of the texture, all that is ever allocated: the most maps that the lights of a plan have together, 1 to
-    /// [`MAPS_MAX`]. A spot has one, a directional light one for each of its `cascades`, a point light six.
+    /// The most maps that the lights of a plan have together, 1 to
+    /// [`MAPS_MAX`]: a spot has one, a directional light one for each of its `cascades`, a point light six. Each is a layer of
+    /// the texture, all that is ever allocated; but under a [budget](scumble_core::Settings::budget_bytes) they share one.
     pub maps: u32,
     /// Into how many slices the view of a directional light is cut, each with a map of its own box and size. Worth it
     /// outdoors, where the nearest contact asks for texels that the distance has no use for. Adaptive maps of two slices and

@@ -1,13 +1,14 @@
 //! From camera, scene and lights to the maps of a frame. Pure: no GPU, and the state of the sizes is copied.
 //!
 //! By light: slices of the view, or the faces of a point light, and for each: fit; border, so that the taps of the outermost receiver fall into the map;
-//! [demand](crate::demand); texel, and the box on its lattice; matrices and uniforms. The maps of a light are consecutive
-//! layers, of which those that nothing on screen needs stay empty.
+//! [demand](crate::demand) and the texel that it asks for. Then for all maps together: what each [gets](crate::share), the
+//! box on its lattice, matrices and uniforms. The maps of a light have consecutive numbers, of which those that nothing on
+//! screen needs stay empty.
 
 use bytemuck::Zeroable;
 use glam::{DMat4, DVec2, DVec3, Mat4};
 use scumble_core::{
-    Aabb, Bias, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Rest, Seen, Settings, Size, TexelPolicy,
+    Aabb, Bias, Budget, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Rest, Seen, Settings, TexelPolicy,
     size_achieved, slices_of,
 };
 
@@ -15,6 +16,7 @@ use crate::demand::{Found, first_bin};
 use crate::error::Error;
 use crate::moments::blocks_of;
 use crate::options::{Options, SizeChoice};
+use crate::share::{Asked, Granted, share};
 use crate::slices::{Slice, slices};
 use crate::uniforms::{CASCADES_MAX, LIGHTS_MAX, LightUniform, LightsUniform, MapUniform, NO_MAP};
 use crate::view::{Plan, View};
@@ -46,113 +48,122 @@ pub struct MapState {
     pub measured: Option<Found>,
 }
 
-/// Plans a frame; `states` holds one state a map of the lights or more, `seen` by light what the newest measured picture
-/// showed.
-pub fn plan(
-    settings: &Settings,
-    options: &Options,
-    states: &[MapState],
-    seen: &[Option<Seen>],
-    camera: &Camera,
-    scene: &Aabb,
-    lights: &[Light],
-) -> Result<Plan, Error> {
-    let counts: Vec<u32> = lights.iter().map(|light| slices_of(light, options.fitted, &options.cascades)).collect();
-    let needed = counts.iter().sum();
-    if lights.len() > LIGHTS_MAX as usize {
-        return Err(Error::TooManyLights { found: lights.len() });
-    }
-    if needed as usize > states.len() {
-        return Err(Error::TooManyMaps { needed, allocated: states.len() as u32 });
-    }
-    let mut plan = Plan {
-        camera: *camera,
-        views: Vec::with_capacity(needed as usize),
-        maps_needed: needed,
-        policies: states.iter().map(|state| state.policy.clone()).collect(),
-        uniform: LightsUniform { view_depth: view_depth(camera, options.origin_world), ..LightsUniform::zeroed() },
-    };
-    let mut first = 0;
-    for (index, (light, count)) in lights.iter().zip(counts).enumerate() {
-        let seen = seen.get(index).and_then(Option::as_ref);
-        let slices = slices(settings, options, &states[first as usize..], (camera, scene, light), seen)?;
-        plan.uniform.lights[index] = light_uniform(light, options.origin_world, &slices, first, count);
-        let mut sizing = Sizing { settings, options, states, policies: &mut plan.policies };
-        for view in sizing.views_of_light([index as u32, first], slices)? {
-            plan.uniform.maps[view.layer as usize] = map_uniform(settings, options, &view);
+/// What a frame is planned from, beside what it shows.
+pub struct Planner<'a> {
+    /// Of the renderer.
+    pub settings: &'a Settings,
+    /// Of the renderer.
+    pub options: &'a Options,
+    /// One a map of the lights, or more.
+    pub states: &'a [MapState],
+    /// By light what the newest measured picture showed.
+    pub seen: &'a [Option<Seen>],
+    /// Side of the page that all maps share under a budget.
+    pub page_side: Option<u32>,
+    /// How far maps gave way in the last frame.
+    pub budget: Budget,
+}
+
+/// A map before it has a size, but for what it [asks](Asked) for.
+struct Draft {
+    light: u32,
+    slice: Slice,
+    is_resting: bool,
+}
+
+impl Planner<'_> {
+    /// Plans a frame.
+    pub fn plan(&self, camera: &Camera, scene: &Aabb, lights: &[Light]) -> Result<Plan, Error> {
+        let Self { settings, options, states, .. } = *self;
+        let counts: Vec<u32> = lights.iter().map(|light| slices_of(light, options.fitted, &options.cascades)).collect();
+        let needed = counts.iter().sum();
+        if lights.len() > LIGHTS_MAX as usize {
+            return Err(Error::TooManyLights { found: lights.len() });
+        }
+        if needed as usize > states.len() {
+            return Err(Error::TooManyMaps { needed, allocated: states.len() as u32 });
+        }
+        let mut plan = Plan {
+            camera: *camera,
+            views: Vec::with_capacity(needed as usize),
+            maps_needed: needed,
+            policies: states.iter().map(|state| state.policy.clone()).collect(),
+            budget: self.budget,
+            uniform: LightsUniform { view_depth: view_depth(camera, options.origin_world), ..LightsUniform::zeroed() },
+        };
+
+        // What the maps that something is in ask for.
+        let (mut drafts, mut asked) = (Vec::new(), Vec::new());
+        let mut first = 0;
+        for ((index, light), count) in (0_u32..).zip(lights).zip(counts) {
+            let seen = self.seen.get(index as usize).and_then(Option::as_ref);
+            let slices = slices(settings, options, &states[first as usize..], (camera, scene, light), seen)?;
+            plan.uniform.lights[index as usize] = light_uniform(light, options.origin_world, &slices, first, count);
+            for mut slice in slices {
+                let Some(fit) = slice.fit.take() else { continue };
+                let map = first + slice.slice;
+                let is_adaptive = options.size == SizeChoice::Adaptive;
+                let is_resting = is_adaptive && !slice.is_net && states[map as usize].rest.is_resting(settings);
+                let texel_world = self.texel_world(&mut plan.policies[map as usize], map, &fit, &slice)?;
+                asked.push(Asked { map, fit, texel_world });
+                drafts.push(Draft { light: index, slice, is_resting });
+            }
+            first += count;
+        }
+
+        // What they get.
+        let (granted, budget) = share(settings, options.size, self.page_side, &self.budget, &asked)?;
+        plan.budget = budget;
+        for ((draft, asked), granted) in drafts.into_iter().zip(asked).zip(granted) {
+            let view = self.view(draft, asked.map, granted);
+            plan.uniform.maps[view.map as usize] = map_uniform(settings, options, &view);
             plan.views.push(view);
         }
-        first += count;
-    }
-    Ok(plan)
-}
-
-/// From slices to maps with a size.
-struct Sizing<'a> {
-    settings: &'a Settings,
-    options: &'a Options,
-    states: &'a [MapState],
-    /// Of the states, a frame on.
-    policies: &'a mut [TexelPolicy],
-}
-
-impl Sizing<'_> {
-    /// The maps of one light, whose nearest slice has the layer `first`.
-    fn views_of_light(&mut self, [light, first]: [u32; 2], slices: Vec<Slice>) -> Result<Vec<View>, Error> {
-        let mut views = Vec::with_capacity(slices.len());
-        for Slice { slice, depth_end, fit, border_world, demand, is_net } in slices {
-            let Some(fit) = fit else { continue };
-            let layer = first + slice;
-            let is_adaptive = self.options.size == SizeChoice::Adaptive;
-            let is_resting = is_adaptive && !is_net && self.states[layer as usize].rest.is_resting(self.settings);
-            let (fit, size) = match self.options.size {
-                SizeChoice::Fixed(texels) => self.achieved(fit, texels, demand),
-                SizeChoice::Adaptive => {
-                    let texel_world = self.texel_world(layer, &fit, demand, is_net)?;
-                    let (fit, texels) = fit.on_lattice(texel_world, self.settings.floor);
-                    self.achieved(fit, texels, if is_resting { Demand::Nothing } else { demand })
-                }
-            };
-            // Where the cap binds, narrower filters than it hides are widened (Kreuzer 2017, 6.2), and under a net and in a
-            // map that rests all are. A fixed size is left alone.
-            let widens = is_adaptive && (size.capped || is_net || is_resting);
-            let least = if widens { size.radius_min_world } else { 0.0 };
-            views.push(View {
-                light,
-                slice,
-                depth_end,
-                layer,
-                size_texels: size.texels,
-                size,
-                clip_from_world: fit.clip_from_relative(self.options.origin_world).as_mat4(),
-                radius_min_world: self.settings.radius_min_world.max(least),
-                is_net,
-                is_resting,
-                inner: 1.0 - 2.0 * border_world / fit.extent_world,
-                fit,
-            });
-        }
-        Ok(views)
+        Ok(plan)
     }
 
-    /// The texel of an adaptive map. A net has its texel from its own extent in every frame, and leaves that of the layer's
+    /// The texel that a map asks for. A net has its texel from its own extent in every frame, and leaves that of the map's
     /// slice alone.
-    fn texel_world(&mut self, layer: u32, fit: &Fit, demand: Demand, is_net: bool) -> Result<DVec2, Error> {
-        if is_net {
-            return Ok(TexelPolicy::new(self.settings)?.next(fit.extent_world, demand)?);
+    fn texel_world(&self, policy: &mut TexelPolicy, map: u32, fit: &Fit, slice: &Slice) -> Result<DVec2, Error> {
+        if let SizeChoice::Fixed(_) = self.options.size {
+            return Ok(DVec2::ONE);
         }
-        let texel_world = self.policies[layer as usize].next(fit.extent_world, demand)?;
-        Ok(self.states[layer as usize].rest.texel(texel_world, fit.extent_world, self.settings))
+        if slice.is_net {
+            return Ok(TexelPolicy::new(self.settings)?.next(fit.extent_world, slice.demand)?);
+        }
+        let texel_world = policy.next(fit.extent_world, slice.demand)?;
+        Ok(self.states[map as usize].rest.texel(texel_world, fit.extent_world, self.settings))
     }
 
-    /// What these texels achieve.
-    fn achieved(&self, fit: Fit, texels: [u32; 2], demand: Demand) -> (Fit, Size) {
+    /// A map with its size.
+    fn view(&self, Draft { light, slice, is_resting }: Draft, map: u32, granted: Granted) -> View {
+        let Slice { slice, depth_end, border_world, demand, is_net, .. } = slice;
+        let Granted { fit, texels, layer, origin_texels } = granted;
         let radius = match demand {
-            Demand::Radius(radius) => Some(radius.max(self.settings.radius_min_world)),
-            Demand::Nothing => None,
+            Demand::Radius(radius) if !is_resting => Some(radius.max(self.settings.radius_min_world)),
+            Demand::Radius(_) | Demand::Nothing => None,
         };
         let size = size_achieved(texels, fit.extent_world, radius, &self.settings.relation);
-        (fit, size)
+        // Where the cap binds, narrower filters than it hides are widened (Kreuzer 2017, 6.2), and under a net and in a map
+        // that rests all are. A fixed size is left alone.
+        let widens = self.options.size == SizeChoice::Adaptive && (size.capped || is_net || is_resting);
+        let least = if widens { size.radius_min_world } else { 0.0 };
+        View {
+            light,
+            slice,
+            depth_end,
+            map,
+            layer,
+            origin_texels,
+            size_texels: texels,
+            size,
+            clip_from_world: fit.clip_from_relative(self.options.origin_world).as_mat4(),
+            radius_min_world: self.settings.radius_min_world.max(least),
+            is_net,
+            is_resting,
+            inner: 1.0 - 2.0 * border_world / fit.extent_world,
+            fit,
+        }
     }
 }
 
@@ -223,7 +234,7 @@ fn map_uniform(settings: &Settings, options: &Options, view: &View) -> MapUnifor
         first_bin: first_bin(fit),
         is_sphere: u32::from(fit.face.is_some()),
         inner: view.inner.as_vec2().to_array(),
-        padding: [0; 2],
+        origin_texels: view.origin_texels.map(|at| at as f32),
     }
 }
 

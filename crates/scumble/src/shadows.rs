@@ -1,6 +1,6 @@
 //! The object that a renderer keeps: maps, bindings, sizes and the demand pass of all its shadowed lights.
 
-use scumble_core::{Aabb, Camera, Filter, Light, Rest, Seen, Settings, TexelPolicy};
+use scumble_core::{Aabb, Budget, Camera, Filter, Light, Rest, Seen, Settings, TexelPolicy};
 
 use crate::bindings::Bindings;
 use crate::counters::{BlockCounts, Counters};
@@ -10,7 +10,8 @@ use crate::maps::{MAP_FORMAT, Maps, depth_state};
 use crate::measure::{Lights, Measure, Readings, Request};
 use crate::moments::{Moments, Task};
 use crate::options::Options;
-use crate::plan::{MapState, plan};
+use crate::plan::{MapState, Planner};
+use crate::share::page_side;
 use crate::uniforms::{BLOCKER_TAPS, LIGHTS_MAX, MAPS_MAX, MOMENT_TAPS, PCF_TAPS};
 use crate::view::{Plan, View};
 
@@ -25,6 +26,8 @@ pub struct Shadows {
     bindings: Bindings,
     measure: Option<Measure>,
     states: Vec<MapState>,
+    page_side: Option<u32>,
+    budget: Budget,
     seen: Vec<Option<Seen>>,
     uploaded: Uploaded,
     counters: Counters,
@@ -48,10 +51,12 @@ impl Shadows {
     }
 
     /// Allocates `options.maps` maps at the settings' cap, 4 bytes a texel, and with VSM their moments, 8 bytes a texel of
-    /// one map more: all the memory this will ever take.
+    /// one map more: all the memory this will ever take. With [`Settings::budget_bytes`] it is one page in their place, of
+    /// that many bytes and as wide as the device allows at most, which the maps of a frame share as they need it.
     ///
     /// # Errors
-    /// Settings or options out of range, a cap above the device's limit, VSM on a device without compute shaders.
+    /// Settings or options out of range, a cap above the device's limit, VSM on a device without compute shaders, a budget
+    /// below what maps of the least size need.
     pub fn with_options(device: &wgpu::Device, settings: Settings, options: Options) -> Result<Self, Error> {
         let settings = settings.checked()?;
         let device_limit = device.limits().max_texture_dimension_2d;
@@ -59,9 +64,13 @@ impl Shadows {
             return Err(Error::CapOutsideDevice { cap: settings.cap, device_limit });
         }
         let options = options.checked(settings.cap)?;
-        let maps = Maps::new(device, settings.cap, options.maps);
+        let page_side = page_side(&settings, &options.filter, options.maps, device_limit)?;
+        let maps = match page_side {
+            Some(side) => Maps::new(device, side, 1),
+            None => Maps::new(device, settings.cap, options.maps),
+        };
         let moments = match options.filter {
-            Filter::Vsm { .. } => Some(Moments::new(device, &maps)?),
+            Filter::Vsm { .. } => Some(Moments::new(device, &maps, options.maps)?),
             Filter::Hard | Filter::Pcf { .. } | Filter::Pcss => None,
         };
         let bindings = Bindings::new(device, &maps, moments.as_ref());
@@ -74,6 +83,8 @@ impl Shadows {
         Ok(Self {
             device: device.clone(),
             states: vec![state; options.maps as usize],
+            page_side,
+            budget: Budget::default(),
             settings,
             options,
             maps,
@@ -130,9 +141,17 @@ impl Shadows {
     /// from, out of it: the reference plane of a spot is where its cone enters these bounds.
     ///
     /// # Errors
-    /// A camera, scene or light out of range, and lights with more maps than `options.maps`.
+    /// A camera, scene or light out of range, lights with more maps than `options.maps`, and fixed sizes beyond the budget.
     pub fn plan(&self, camera: &Camera, scene: &Aabb, lights: &[Light]) -> Result<Plan, Error> {
-        plan(&self.settings, &self.options, &self.states, &self.seen, camera, scene, lights)
+        let planner = Planner {
+            settings: &self.settings,
+            options: &self.options,
+            states: &self.states,
+            seen: &self.seen,
+            page_side: self.page_side,
+            budget: self.budget,
+        };
+        planner.plan(camera, scene, lights)
     }
 
     /// Makes a plan the one that the shaders see from the queue's next submission on. Once a frame.
@@ -141,11 +160,12 @@ impl Shadows {
         for (state, policy) in self.states.iter_mut().zip(&plan.policies) {
             state.policy.clone_from(policy);
         }
+        self.budget = plan.budget;
         self.uploaded =
             Uploaded { lights: [None; LIGHTS_MAX as usize], readings: [None; MAPS_MAX as usize], moments: Vec::new() };
         for view in &plan.views {
             self.uploaded.lights[view.light as usize] = Some(view.fit.light);
-            self.uploaded.readings[view.layer as usize] = Some(Reading::of(&view.fit));
+            self.uploaded.readings[view.map as usize] = Some(Reading::of(&view.fit));
         }
         if let (Some(moments), Filter::Vsm { radius_world }) = (&self.moments, self.options.filter) {
             self.uploaded.moments = plan.views.iter().map(|view| Task::new(view, radius_world)).collect();
@@ -218,7 +238,7 @@ impl Shadows {
         self.bindings.layout()
     }
 
-    /// The map texture, Depth32Float, a layer a map: for pictures of it.
+    /// The map texture, Depth32Float, a layer a map or one page for all: for pictures of it.
     #[must_use]
     pub fn map_texture(&self) -> &wgpu::Texture {
         self.maps.texture()
@@ -310,7 +330,7 @@ impl Shadows {
     /// `Some(None)` where no fragment had a penumbra.
     #[must_use]
     pub fn measured_radius_world(&self, view: &View) -> Option<Option<f64>> {
-        let measured = self.states.get(view.layer as usize)?.measured?;
+        let measured = self.states.get(view.map as usize)?.measured?;
         Some(measured.radius_per_scale.map(|radius| radius * measure_scale(&view.fit)))
     }
 
@@ -318,7 +338,7 @@ impl Shadows {
     /// where fragments tell the demand.
     #[must_use]
     pub fn measured_blocks(&self, view: &View) -> Option<BlockCounts> {
-        self.states.get(view.layer as usize)?.measured?.blocks
+        self.states.get(view.map as usize)?.measured?.blocks
     }
 
     /// Forgets sizes and measurements, as after a cut.
@@ -331,6 +351,7 @@ impl Shadows {
             *state = MapState { policy: policy.clone(), rest: Rest::default(), measured: None };
         }
         self.seen.clear();
+        self.budget = Budget::default();
         Ok(())
     }
 

@@ -74,8 +74,8 @@ pub struct MapUniform {
     pub is_sphere: u32,
     /// Half of the box, in clip space, in which points are looked up here and not in the light's net.
     pub inner: [f32; 2],
-    /// Unused.
-    pub padding: [u32; 2],
+    /// Corner of the viewport in the layer, whole texels.
+    pub origin_texels: [f32; 2],
 }
 
 /// One map as the passes of variance shadow maps see it; `Moments` of `shader/vsm_map.wgsl`.
@@ -84,6 +84,8 @@ pub struct MapUniform {
 pub struct MomentsUniform {
     /// Size of the viewport in texels.
     pub viewport: [u32; 2],
+    /// Corner of the viewport in its layer, and of the blocks in theirs.
+    pub origin: [u32; 2],
     /// Texels of a block along x and y.
     pub block: [u32; 2],
     /// Half sides of the kernel in blocks.

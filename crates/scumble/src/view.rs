@@ -1,7 +1,7 @@
 //! One map of a frame, and the plan that holds them all: what to draw, where, and how large.
 
 use glam::{DVec2, DVec3, Mat4};
-use scumble_core::{Camera, Face, Fit, Light, Size, TexelPolicy};
+use scumble_core::{Budget, Camera, Face, Fit, Light, Size, TexelPolicy};
 
 use crate::uniforms::LightsUniform;
 
@@ -14,9 +14,13 @@ pub struct View {
     pub slice: u32,
     /// View depth at which the slice ends, in metres; infinite for the last, and for faces.
     pub depth_end: f64,
-    /// Layer of the map texture.
+    /// Number of the map among all that were allocated, the same in every frame with the same lights.
+    pub map: u32,
+    /// Layer of the map texture: the map's number, or 0 under a budget.
     pub layer: u32,
-    /// Size of the viewport, whose corner is texel (0, 0).
+    /// Corner of the viewport in the layer: texel (0, 0), or the map's place on the page of a budget.
+    pub origin_texels: [u32; 2],
+    /// Size of the viewport.
     pub size_texels: [u32; 2],
     /// What the size achieves.
     pub size: Size,
@@ -62,6 +66,7 @@ pub struct Plan {
     pub(crate) views: Vec<View>,
     pub(crate) maps_needed: u32,
     pub(crate) policies: Vec<TexelPolicy>,
+    pub(crate) budget: Budget,
     pub(crate) uniform: LightsUniform,
 }
 
@@ -105,6 +110,13 @@ impl Plan {
     #[must_use]
     pub fn maps_skipped(&self) -> u32 {
         self.maps_needed.saturating_sub(self.views.len() as u32)
+    }
+
+    /// Rungs of the ladder, quarters of an octave, by which all maps gave way to their budget; 0 where they fit, and without
+    /// one. `c_effective` says what each has left.
+    #[must_use]
+    pub fn rungs_given_way(&self) -> u32 {
+        self.budget.rungs()
     }
 
     /// What the shaders are told.

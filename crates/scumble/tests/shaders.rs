@@ -132,7 +132,7 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
         TapsUniform,
     };
     let passes = parse(&vsm_reduce_wgsl());
-    assert_same_layout!(passes, "Moments", MomentsUniform, [viewport, block, radius, near_over_far, padding]);
+    assert_same_layout!(passes, "Moments", MomentsUniform, [viewport, origin, block, radius, near_over_far, padding]);
     let fragments = parse(&[shadow_wgsl(0), fragments_wgsl(1)].join("\n"));
     assert_same_layout!(
         fragments,
@@ -170,7 +170,7 @@ fn structs_have_the_same_offsets_in_rust_and_wgsl() {
             first_bin,
             is_sphere,
             inner,
-            padding,
+            origin_texels,
         ]
     );
     assert_same_layout!(

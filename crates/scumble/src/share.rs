@@ -1,0 +1,115 @@
+//! What each map of a frame gets of the texture: its texels and their place.
+//!
+//! Without a budget every map has a layer, of which it takes what it asks for, up to the cap. Under one
+//! ([`Settings::budget_bytes`]) all maps share one page of that many bytes, on which they are [packed](crate::atlas). What does not fit
+//! gives way by [`Budget`]'s rule. Rooms are for the most texels that a box may take, so that neither sizes nor places follow
+//! a box that only moves.
+
+use glam::DVec2;
+use scumble_core::{Budget, Filter, Fit, Settings, given_way, texels_at_most};
+
+use crate::atlas::pack;
+use crate::error::Error;
+use crate::moments;
+use crate::options::SizeChoice;
+
+/// Bytes of a texel of depth.
+const DEPTH_BYTES: u64 = 4;
+
+/// A map before it has a size.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// Its number.
+    pub map: u32,
+    /// Its fit, border included.
+    pub fit: Fit,
+    /// The texel that it asks for, of the ladder; nothing under a fixed size.
+    pub texel_world: DVec2,
+}
+
+/// What a map gets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Granted {
+    /// The fit on its lattice.
+    pub fit: Fit,
+    /// Width and height of the viewport.
+    pub texels: [u32; 2],
+    /// Layer of the texture.
+    pub layer: u32,
+    /// Corner of the viewport there.
+    pub origin_texels: [u32; 2],
+}
+
+/// Side of the one page that a budget allows, in texels; `None` without a budget.
+///
+/// # Errors
+/// A budget below what `maps` of the least size need.
+pub fn page_side(settings: &Settings, filter: &Filter, maps: u32, device_limit: u32) -> Result<Option<u32>, Error> {
+    let Some(budget_bytes) = settings.budget_bytes else { return Ok(None) };
+    // Moments lie on a page of their own, and so does what is between their passes.
+    let texel_bytes = match filter {
+        Filter::Vsm { .. } => DEPTH_BYTES + 2 * moments::TEXEL_BYTES,
+        Filter::Hard | Filter::Pcf { .. } | Filter::Pcss => DEPTH_BYTES,
+    };
+    let side = (budget_bytes / texel_bytes).isqrt().min(u64::from(device_limit)) as u32;
+    let across = u64::from(maps).isqrt() as u32;
+    let least = settings.floor * if across * across < maps { across + 1 } else { across };
+    if side < least {
+        return Err(Error::Budget { found: budget_bytes, least: texel_bytes * u64::from(least).pow(2), maps });
+    }
+    Ok(Some(side))
+}
+
+/// Sizes and places of all maps, in their order, on a page of `page_side` or in layers, and how far they gave way.
+///
+/// # Errors
+/// Fixed sizes that the page has no room for.
+pub fn share(
+    settings: &Settings,
+    size: SizeChoice,
+    page_side: Option<u32>,
+    budget: &Budget,
+    asked: &[Asked],
+) -> Result<(Vec<Granted>, Budget), Error> {
+    let Some(side) = page_side else {
+        let own_layer = |asked: &Asked| granted(settings, size, asked, asked.texel_world, asked.map, [0; 2]);
+        return Ok((asked.iter().map(own_layer).collect(), *budget));
+    };
+    let cap = settings.cap.min(side);
+    let texels = |rungs: u32, growth: f64| -> Vec<DVec2> {
+        let given =
+            |asked: &Asked| given_way(asked.texel_world, growth * asked.fit.extent_world, rungs, cap, settings.floor);
+        asked.iter().map(given).collect()
+    };
+    let rooms = |rungs: u32, growth: f64| -> Vec<[u32; 2]> {
+        match size {
+            SizeChoice::Fixed(texels) => vec![texels; asked.len()],
+            SizeChoice::Adaptive => {
+                let room = |(texel, asked): (DVec2, &Asked)| {
+                    texels_at_most(growth * asked.fit.extent_world, texel, settings.floor)
+                };
+                texels(rungs, growth).into_iter().zip(asked).map(room).collect()
+            }
+        }
+    };
+    let beyond = || Error::BeyondBudget { maps: asked.len(), side };
+    let next = budget.next(|rungs, growth| pack(side, &rooms(rungs, growth)).is_some()).ok_or_else(beyond)?;
+    let places = pack(side, &rooms(next.rungs(), 1.0)).ok_or_else(beyond)?;
+    let maps = asked.iter().zip(texels(next.rungs(), 1.0)).zip(places);
+    Ok((maps.map(|((asked, texel), origin)| granted(settings, size, asked, texel, 0, origin)).collect(), next))
+}
+
+fn granted(
+    settings: &Settings,
+    size: SizeChoice,
+    asked: &Asked,
+    texel_world: DVec2,
+    layer: u32,
+    origin_texels: [u32; 2],
+) -> Granted {
+    let (fit, texels) = match size {
+        SizeChoice::Adaptive => asked.fit.on_lattice(texel_world, settings.floor),
+        SizeChoice::Fixed(texels) => (asked.fit.clone(), texels),
+    };
+    Granted { fit, texels, layer, origin_texels }
+}
