@@ -5,9 +5,8 @@
 // where its visibility is partial and at least two samples found a blocker. Its radius is clamped below by
 // `radius_floor_world` and by what one pixel can show, `radius_per_footprint` times the pixel's footprint at the reference
 // plane. Bits of positive floats keep their order, so the minimum is an atomic minimum of u32, where 0x7F800000, infinity,
-// says that nothing was written; without the lowest 20 they are the bins of the histogram, 8 an octave. Without the lowest
-// 22 the bits of a view depth are the bands by which receivers of a light with cascades are boxed, 2 an octave
-// (`scumble_core::Seen`).
+// says that nothing was written; without the lowest 20 they are the bins of the histogram, 8 an octave. Receivers are boxed
+// as `receivers.wgsl` says.
 
 struct Measure {
     eye: vec3f,
@@ -30,11 +29,6 @@ struct MapDemand {
     counts: array<atomic<u32>, MEASURE_BINS>,
 }
 
-// Minima of x, y, -x and -y.
-struct LightReceivers {
-    minima: array<array<atomic<u32>, 4>, MEASURE_BANDS>,
-}
-
 struct Measured {
     // Counted by the pass that makes blocks of corners.
     blocks: array<array<atomic<u32>, 3>, SHADOW_MAPS_MAX>,
@@ -46,12 +40,6 @@ const MEASURE_NOTHING: u32 = 0x7F800000u;
 const MEASURE_BINS: u32 = 128u;
 // Bits of a radius that no bin tells apart.
 const MEASURE_BIN_SHIFT: u32 = 20u;
-const MEASURE_BANDS: u32 = 32u;
-// Bits of a view depth that no band tells apart, and what the rest is of the first band's, 1/16 m.
-const MEASURE_BAND_SHIFT: u32 = 22u;
-const MEASURE_BAND_FIRST: u32 = 246u;
-// Above the bits of every number, in order.
-const MEASURE_NOWHERE: u32 = 0xffffffffu;
 const MEASURE_GROUP: u32 = 64u;
 
 // Change of slope from pixel to pixel that still counts as one surface, as a share of the slope, and as depth: a few
@@ -67,11 +55,10 @@ const NO_PLANE: f32 = 1e30;
 // What each measured pixel is, `shadow_corner`, a layer a light.
 @group(1) @binding(3) var corners: texture_storage_2d_array<r32uint, write>;
 
-// By map of the light; the bins of all maps one after the other; four minima a band.
+// By map of the light; the bins of all maps one after the other.
 var<workgroup> group_minimum: array<atomic<u32>, SHADOW_LIGHT_MAPS_MAX>;
 var<workgroup> group_shadowed: array<atomic<u32>, SHADOW_LIGHT_MAPS_MAX>;
 var<workgroup> group_counts: array<atomic<u32>, SHADOW_LIGHT_MAPS_MAX * MEASURE_BINS>;
-var<workgroup> group_receivers: array<atomic<u32>, 4u * MEASURE_BANDS>;
 
 fn ray_at(pixel: vec2f) -> vec3f {
     return measure.ray_corner + pixel.x * measure.ray_x + pixel.y * measure.ray_y;
@@ -174,37 +161,6 @@ fn bin_of(map: u32, radius_bits: u32) -> u32 {
     return min(max(bin, first) - first, MEASURE_BINS - 1u);
 }
 
-// Bits of a number in its order. CPU inverse: `number_of` of `seen.rs`.
-fn ordered(number: f32) -> u32 {
-    let bits = bitcast<u32>(number);
-    return select(bits | 0x80000000u, ~bits, bits >= 0x80000000u);
-}
-
-// Adds a receiver to the boxes of the group. CPU twin of the band: `scumble_core::Seen::band_depths`.
-fn add_receiver(light: u32, here: vec3f) {
-    let view_depth = max(dot(here - measure.eye, measure.forward), 0.0);
-    let band = max(bitcast<u32>(view_depth) >> MEASURE_BAND_SHIFT, MEASURE_BAND_FIRST) - MEASURE_BAND_FIRST;
-    let first = 4u * min(band, MEASURE_BANDS - 1u);
-    let x = dot(shadow_lights.lights[light].across_x, here);
-    let y = dot(shadow_lights.lights[light].across_y, here);
-    atomicMin(&group_receivers[first], ordered(x));
-    atomicMin(&group_receivers[first + 1u], ordered(y));
-    atomicMin(&group_receivers[first + 2u], ordered(-x));
-    atomicMin(&group_receivers[first + 3u], ordered(-y));
-}
-
-// Adds four of the pixels that `first` stands for, one in each quarter of their rows and of their columns: a surface that
-// ends along either, as ground does at the horizon, is not cut short by more than a quarter of the stride.
-fn add_receivers(light: u32, first: vec2i, size: vec2i) {
-    for (var i = 0u; i < 4u; i++) {
-        let offset = vec2u(i, (2u * i + 1u) % 5u) * measure.stride / 4u;
-        let pixel = min(first + vec2i(offset), size - 1);
-        if depth_at(pixel) < 1.0 {
-            add_receiver(light, surface_at(pixel));
-        }
-    }
-}
-
 @compute @workgroup_size(8, 8)
 fn measure_demand(
     @builtin(global_invocation_id) invocation: vec3u,
@@ -221,9 +177,7 @@ fn measure_demand(
     for (var bin = index; bin < map_count * MEASURE_BINS; bin += MEASURE_GROUP) {
         atomicStore(&group_counts[bin], 0u);
     }
-    for (var place = index; place < 4u * MEASURE_BANDS; place += MEASURE_GROUP) {
-        atomicStore(&group_receivers[place], MEASURE_NOWHERE);
-    }
+    start_receivers(index);
     workgroupBarrier();
     if all(invocation.xy < textureDimensions(corners)) {
         let pixel = min(vec2i(invocation.xy * measure.stride), size - 1);
@@ -240,7 +194,7 @@ fn measure_demand(
             atomicAdd(&group_counts[slice * MEASURE_BINS + bin_of(found.map, found.radius_bits)], 1u);
         }
         if map_count > 1u && shadow_lights.lights[light].is_point == 0u && !found.turns_back {
-            add_receivers(light, pixel, size);
+            find_receivers(light, pixel, size);
         }
     }
     workgroupBarrier();
@@ -260,10 +214,5 @@ fn measure_demand(
             atomicAdd(&measured.maps[first_map + bin / MEASURE_BINS].counts[bin % MEASURE_BINS], count);
         }
     }
-    for (var place = index; place < 4u * MEASURE_BANDS; place += MEASURE_GROUP) {
-        let minimum = atomicLoad(&group_receivers[place]);
-        if minimum < MEASURE_NOWHERE {
-            atomicMin(&measured.receivers[light].minima[place / 4u][place % 4u], minimum);
-        }
-    }
+    write_receivers(light, index);
 }

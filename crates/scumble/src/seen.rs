@@ -45,7 +45,7 @@ fn band_of(band: u32, minima: &[u32; 4], origin: DVec2) -> Option<SeenBand> {
     (min.is_finite() && max.is_finite()).then_some(SeenBand { band, min, max })
 }
 
-/// The number of bits in order: inverse of `ordered` of `shader/measure.wgsl`.
+/// The number of bits in order: inverse of `ordered` of `shader/receivers.wgsl`.
 fn number_of(ordered: u32) -> f64 {
     let bits = if ordered & 0x8000_0000 != 0 { ordered & 0x7FFF_FFFF } else { !ordered };
     f64::from(f32::from_bits(bits))

@@ -13,6 +13,7 @@ const FRAGMENTS: &str = include_str!("../shader/fragments.wgsl");
 const CORNER: &str = include_str!("../shader/corner.wgsl");
 const CLASSIFY: &str = include_str!("../shader/classify.wgsl");
 const MEASURE: &str = include_str!("../shader/measure.wgsl");
+const RECEIVERS: &str = include_str!("../shader/receivers.wgsl");
 const VSM_MAP: &str = include_str!("../shader/vsm_map.wgsl");
 const VSM_REDUCE: &str = include_str!("../shader/vsm_reduce.wgsl");
 const VSM_BOX: &str = include_str!("../shader/vsm_box.wgsl");
@@ -40,7 +41,7 @@ pub fn shadow_wgsl(group: u32) -> String {
 
 /// The demand pass, for tests that look at it.
 pub fn measure_wgsl() -> String {
-    [&shadow_wgsl(0), RECEIVES, CORNER, MEASURE].join("\n")
+    [&shadow_wgsl(0), RECEIVES, CORNER, MEASURE, RECEIVERS].join("\n")
 }
 
 /// WGSL to put after [`shadow_wgsl`], for renderers without a depth prepass: it declares the binding of

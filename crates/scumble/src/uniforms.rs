@@ -172,7 +172,7 @@ pub struct MapDemand {
     pub counts: [u32; RadiusHistogram::BINS as usize],
 }
 
-/// Where receivers of one light are, by band of view depth; `LightReceivers` of `shader/measure.wgsl`.
+/// Where receivers of one light are, by band of view depth; `LightReceivers` of `shader/receivers.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct LightReceivers {
