@@ -87,7 +87,7 @@ pub use relation_file::{
     RelationFile, SCHEMA, SessionHash,
 };
 pub use rest::Rest;
-pub use seen::{Seen, SeenBand, SeenCascades, seen_cascades};
+pub use seen::{Seen, SeenBand, SeenCascades, SeenLately, seen_cascades};
 pub use settings::{Filter, Settings, pixel_footprint_world};
 pub use split::Splits;
 pub use statistic::{RadiusHistogram, Statistic};

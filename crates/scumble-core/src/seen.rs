@@ -12,8 +12,11 @@
 //! go on beyond the edge of the picture of then are held too, and by two of the gaps between the pixels that were looked at.
 //! What appears from behind an occluder no camera can tell; the [net](crate::seen_cascades) is for that.
 
+mod lately;
 #[cfg(test)]
 mod tests;
+
+pub use lately::SeenLately;
 
 use glam::{DVec2, DVec3};
 
@@ -32,6 +35,11 @@ const GAPS: f64 = 2.0;
 /// Share of the picture's height that its corners may have moved, at the depth of a band. Beyond, more is new than was seen:
 /// a cut, a flick of the head, or nobody measures any more.
 const MOVED_MAX: f64 = 0.5;
+
+/// Share by which the depths between which a view is cut may change from one frame to the next: receivers that change their
+/// map with an end of a slice then do so few at a time. What is far comes and goes behind what is near at once; a walker at
+/// 1.5 m/s changes depths of 2.5 m and more by less.
+const DRIFT: f64 = 0.01;
 
 /// The least exponent of two of a band's depth: 1/16 m, nearer than eyes and hands are.
 const FIRST_EXPONENT: i32 = -4;
@@ -132,10 +140,12 @@ pub struct SeenCascades {
     pub slices: Vec<Cascade>,
     /// The fit of the whole view: for receivers that no camera can tell before they appear, and for those that move.
     pub net: Fit,
+    /// View depths between which the view was cut, for the next frame.
+    pub depths: [f64; 2],
 }
 
 /// The slices of a light, each fitted to what a picture showed of its receivers: the view is cut between the nearest and the
-/// farthest of them. A receiver that was seen, has not moved and is on screen is in the map of its slice; every other one
+/// farthest of them, or from `last`, the depths of the last frame, on the way there. A receiver that was seen, has not moved and is on screen is in the map of its slice; every other one
 /// on screen is in the net.
 ///
 /// `None` where [`cascades`](crate::cascades) serves better: a light that is not split, a view of nothing, a picture that
@@ -149,6 +159,7 @@ pub fn seen_cascades(
     light: &Light,
     splits: &Splits,
     seen: &Seen,
+    last: Option<[f64; 2]>,
 ) -> Result<Option<SeenCascades>, Error> {
     let (camera, scene, light, splits) = (camera.checked()?, scene.checked()?, light.checked()?, splits.checked()?);
     if slices_of(&light, true, &splits) < 2 || slices_of(&seen.light, true, &splits) < 2 {
@@ -159,6 +170,8 @@ pub fn seen_cascades(
     let local = Polyhedron::from_corners(scene.corners().map(|p| p - origin));
     let Some(cells) = seen.cells(&camera, &local, origin)? else { return Ok(None) };
     let Some((near, far)) = depths_of(&cells, &camera, origin) else { return Ok(None) };
+    let near = drifted(last.map(|depths| depths[0]), near);
+    let far = drifted(last.map(|depths| depths[1]), far).max(near);
 
     let count = splits.count - 1;
     let ends = Splits { count, ..splits }.ends(near, far);
@@ -172,7 +185,12 @@ pub fn seen_cascades(
         slices.push(Cascade { depth_end, fit: fit_bodies(&scene, light, &bodies) });
         begin = end;
     }
-    Ok(Some(SeenCascades { slices, net }))
+    Ok(Some(SeenCascades { slices, net, depths: [near, far] }))
+}
+
+/// A depth on its way from that of the last frame.
+fn drifted(last: Option<f64>, depth: f64) -> f64 {
+    last.map_or(depth, |last| depth.clamp(last * (1.0 - DRIFT), last * (1.0 + DRIFT)))
 }
 
 /// All points between two view depths, of which the farther may be infinite.

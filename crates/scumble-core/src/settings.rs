@@ -85,7 +85,7 @@ pub struct Settings {
     pub radius_min_world: f64,
     /// A size may shrink when the demand stayed this share below it, 0..1.
     pub shrink_below: f64,
-    /// Number of frames that the demand must stay below.
+    /// Number of frames that the demand must stay below, and for which a box holds a receiver that is not seen any more.
     pub shrink_after_frames: u32,
     /// Most rungs of the ladder, quarters of an octave, that one shrinking takes; limits the rate of visible change.
     pub shrink_rungs: u32,

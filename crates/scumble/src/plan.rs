@@ -8,8 +8,8 @@
 use bytemuck::Zeroable;
 use glam::{DMat4, DVec2, DVec3, Mat4};
 use scumble_core::{
-    Aabb, Bias, Budget, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Rest, Seen, Settings, TexelPolicy,
-    size_achieved, slices_of,
+    Aabb, Bias, Budget, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Rest, Settings, TexelPolicy, size_achieved,
+    slices_of,
 };
 
 use crate::demand::{Found, first_bin};
@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::moments::blocks_of;
 use crate::options::{Options, SizeChoice};
 use crate::share::{Asked, Granted, share};
-use crate::slices::{Slice, slices};
+use crate::slices::{LightState, Slice, slices};
 use crate::uniforms::{CASCADES_MAX, LIGHTS_MAX, LightUniform, LightsUniform, MapUniform, NO_MAP};
 use crate::view::{Plan, View};
 
@@ -56,8 +56,8 @@ pub struct Planner<'a> {
     pub options: &'a Options,
     /// One a map of the lights, or more.
     pub states: &'a [MapState],
-    /// By light what the newest measured picture showed.
-    pub seen: &'a [Option<Seen>],
+    /// One a light of the most that there are.
+    pub lights: &'a [LightState],
     /// Side of the page that all maps share under a budget.
     pub page_side: Option<u32>,
     /// How far maps gave way in the last frame.
@@ -88,6 +88,7 @@ impl Planner<'_> {
             views: Vec::with_capacity(needed as usize),
             maps_needed: needed,
             policies: states.iter().map(|state| state.policy.clone()).collect(),
+            depths: [None; LIGHTS_MAX as usize],
             budget: self.budget,
             uniform: LightsUniform { view_depth: view_depth(camera, options.origin_world), ..LightsUniform::zeroed() },
         };
@@ -96,8 +97,13 @@ impl Planner<'_> {
         let (mut drafts, mut asked) = (Vec::new(), Vec::new());
         let mut first = 0;
         for ((index, light), count) in (0_u32..).zip(lights).zip(counts) {
-            let seen = self.seen.get(index as usize).and_then(Option::as_ref);
-            let slices = slices(settings, options, &states[first as usize..], (camera, scene, light), seen)?;
+            let state = &self.lights[index as usize];
+            let (slices, depths) = slices(settings, options, &states[first as usize..], (camera, scene, light), state)?;
+            plan.depths[index as usize] = depths;
+            if depths.is_some() && state.depths.is_none() {
+                // A net takes the place of the last slice, whose texel is not for it.
+                plan.policies[(first + count - 1) as usize] = TexelPolicy::new(settings)?;
+            }
             plan.uniform.lights[index as usize] = light_uniform(light, options.origin_world, &slices, first, count);
             for mut slice in slices {
                 let Some(fit) = slice.fit.take() else { continue };
@@ -122,16 +128,15 @@ impl Planner<'_> {
         Ok(plan)
     }
 
-    /// The texel that a map asks for. A net has its texel from its own extent in every frame, and leaves that of the map's
-    /// slice alone.
+    /// The texel that a map asks for. A net does not rest.
     fn texel_world(&self, policy: &mut TexelPolicy, map: u32, fit: &Fit, slice: &Slice) -> Result<DVec2, Error> {
         if let SizeChoice::Fixed(_) = self.options.size {
             return Ok(DVec2::ONE);
         }
-        if slice.is_net {
-            return Ok(TexelPolicy::new(self.settings)?.next(fit.extent_world, slice.demand)?);
-        }
         let texel_world = policy.next(fit.extent_world, slice.demand)?;
+        if slice.is_net {
+            return Ok(texel_world);
+        }
         Ok(self.states[map as usize].rest.texel(texel_world, fit.extent_world, self.settings))
     }
 

@@ -1,6 +1,6 @@
 //! The object that a renderer keeps: maps, bindings, sizes and the demand pass of all its shadowed lights.
 
-use scumble_core::{Aabb, Budget, Camera, Filter, Light, Rest, Seen, Settings, TexelPolicy};
+use scumble_core::{Aabb, Budget, Camera, Filter, Light, Rest, SeenLately, Settings, TexelPolicy};
 
 use crate::bindings::Bindings;
 use crate::counters::{BlockCounts, Counters};
@@ -12,6 +12,7 @@ use crate::moments::{Moments, Task};
 use crate::options::Options;
 use crate::plan::{MapState, Planner};
 use crate::share::page_side;
+use crate::slices::LightState;
 use crate::uniforms::{BLOCKER_TAPS, LIGHTS_MAX, MAPS_MAX, MOMENT_TAPS, PCF_TAPS};
 use crate::view::{Plan, View};
 
@@ -28,7 +29,7 @@ pub struct Shadows {
     states: Vec<MapState>,
     page_side: Option<u32>,
     budget: Budget,
-    seen: Vec<Option<Seen>>,
+    lights: Vec<LightState>,
     uploaded: Uploaded,
     counters: Counters,
 }
@@ -91,7 +92,7 @@ impl Shadows {
             moments,
             bindings,
             measure: None,
-            seen: Vec::new(),
+            lights: vec![LightState::default(); LIGHTS_MAX as usize],
             uploaded: Uploaded {
                 lights: [None; LIGHTS_MAX as usize],
                 readings: [None; MAPS_MAX as usize],
@@ -147,7 +148,7 @@ impl Shadows {
             settings: &self.settings,
             options: &self.options,
             states: &self.states,
-            seen: &self.seen,
+            lights: &self.lights,
             page_side: self.page_side,
             budget: self.budget,
         };
@@ -159,6 +160,9 @@ impl Shadows {
         self.bindings.write(queue, &plan.uniform);
         for (state, policy) in self.states.iter_mut().zip(&plan.policies) {
             state.policy.clone_from(policy);
+        }
+        for (state, depths) in self.lights.iter_mut().zip(plan.depths) {
+            state.depths = depths;
         }
         self.budget = plan.budget;
         self.uploaded =
@@ -306,7 +310,12 @@ impl Shadows {
     pub fn read_demand(&mut self) -> bool {
         let Some(taken) = self.measure.as_mut().and_then(|it| it.take(self.settings.statistic)) else { return false };
         self.set_measured(taken.maps.into_iter());
-        self.seen = taken.seen;
+        for (state, seen) in self.lights.iter_mut().zip(taken.seen) {
+            match seen {
+                Some(seen) => state.seen.add(seen, self.settings.shrink_after_frames),
+                None => state.seen = SeenLately::default(),
+            }
+        }
         true
     }
 
@@ -350,7 +359,7 @@ impl Shadows {
         for state in &mut self.states {
             *state = MapState { policy: policy.clone(), rest: Rest::default(), measured: None };
         }
-        self.seen.clear();
+        self.lights.fill(LightState::default());
         self.budget = Budget::default();
         Ok(())
     }

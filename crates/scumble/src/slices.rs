@@ -6,7 +6,8 @@
 //! picture is on its way.
 
 use scumble_core::{
-    Aabb, Camera, Cascade, Demand, Filter, Fit, Light, Seen, SeenCascades, Settings, cascades, filter, seen_cascades,
+    Aabb, Camera, Cascade, Demand, Filter, Fit, Light, SeenCascades, SeenLately, Settings, cascades, filter,
+    seen_cascades,
 };
 
 use crate::demand::{demand, lent};
@@ -47,23 +48,33 @@ pub struct Slice {
     pub is_net: bool,
 }
 
-/// The slices of one light: fitted to what a picture showed, with the net as the last, or to the view of the scene's box.
-/// Fixed sizes stretch with their box, so they follow the view alone.
+/// What is known of one light between frames.
+#[derive(Clone, Debug, Default)]
+pub struct LightState {
+    /// What the measured pictures showed of its receivers.
+    pub seen: SeenLately,
+    /// View depths between which the last frame's slices were cut, where they followed that.
+    pub depths: Option<[f64; 2]>,
+}
+
+/// The slices of one light, and the depths for its state of the next frame: fitted to what pictures showed, with the net as
+/// the last, or to the view of the scene's box. Fixed sizes stretch with their box, so they follow the view alone.
 pub fn slices(
     settings: &Settings,
     options: &Options,
     states: &[MapState],
     (camera, scene, light): (&Camera, &Aabb, &Light),
-    seen: Option<&Seen>,
-) -> Result<Vec<Slice>, Error> {
-    let seen = seen.filter(|_| options.fitted && options.size == SizeChoice::Adaptive);
-    let fitted = match seen {
-        Some(seen) => seen_cascades(camera, scene, light, &options.cascades, seen)?,
-        None => None,
+    state: &LightState,
+) -> Result<(Vec<Slice>, Option<[f64; 2]>), Error> {
+    let fitted = match state.seen.together() {
+        Some(seen) if options.fitted && options.size == SizeChoice::Adaptive => {
+            seen_cascades(camera, scene, light, &options.cascades, seen, state.depths)?
+        }
+        _ => None,
     };
-    let (cascades, net) = match fitted {
-        Some(SeenCascades { slices, net }) => (slices, Some(net)),
-        None => (cascades(camera, scene, light, options.fitted, &options.cascades)?, None),
+    let (cascades, net, depths) = match fitted {
+        Some(SeenCascades { slices, net, depths }) => (slices, Some(net), Some(depths)),
+        None => (cascades(camera, scene, light, options.fitted, &options.cascades)?, None, None),
     };
     let slice = |((slice, Cascade { depth_end, fit }), state): ((u32, Cascade), &MapState)| {
         let border_world = fit.as_ref().map_or(0.0, |fit| border_world(fit, reach_world(fit, &options.filter)));
@@ -74,7 +85,7 @@ pub fn slices(
     let mut slices: Vec<Slice> = (0..).zip(cascades).zip(states).map(slice).collect();
     lend(&mut slices);
     slices.extend(net.map(|net| net_slice(settings, &options.filter, &slices, net)));
-    Ok(slices)
+    Ok((slices, depths))
 }
 
 /// Slices that something is in and no penumbra are lent a demand.

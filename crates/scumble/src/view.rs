@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, Mat4};
 use scumble_core::{Budget, Camera, Face, Fit, Light, Size, TexelPolicy};
 
-use crate::uniforms::LightsUniform;
+use crate::uniforms::{LIGHTS_MAX, LightsUniform};
 
 /// One map to draw this frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,6 +66,7 @@ pub struct Plan {
     pub(crate) views: Vec<View>,
     pub(crate) maps_needed: u32,
     pub(crate) policies: Vec<TexelPolicy>,
+    pub(crate) depths: [Option<[f64; 2]>; LIGHTS_MAX as usize],
     pub(crate) budget: Budget,
     pub(crate) uniform: LightsUniform,
 }

@@ -84,7 +84,7 @@ fn a_fit_to_what_shows_through_an_arch_is_as_wide_as_that() {
     let camera = walker(DVec3::new(0.0, 1.7, 30.0), 0.0);
     let shown = |p: &DVec3| (p.x.abs() < 8.0 && p.z > 14.0) || (p.x.abs() < 2.0 && p.z < -8.0 && p.z > -12.0);
     let seen = seen(&camera, &sun(), ground().into_iter().filter(shown));
-    let maps = seen_cascades(&camera, &town(), &sun(), &four(), &seen).unwrap().unwrap();
+    let maps = seen_cascades(&camera, &town(), &sun(), &four(), &seen, None).unwrap().unwrap();
     let bounds = crate::cascades(&camera, &town(), &sun(), true, &four()).unwrap();
     assert_eq!(maps.slices.len(), 3);
     let area = |fit: &Fit| fit.extent_world.x * fit.extent_world.y;
@@ -103,11 +103,12 @@ fn a_walker_at_the_speed_of_a_car_who_looks_around_has_the_ground_in_fine_maps_a
         let secs = frame / 60.0;
         walker(DVec3::new(3.0 * secs.sin(), 1.7, 30.0 - 15.0 * secs), 0.8 * (4.0 * secs).sin())
     };
-    let (mut fine, mut net) = (0, 0);
+    let (mut fine, mut net, mut depths) = (0, 0, None);
     for frame in 3..120 {
         let (then, now) = (pose(f64::from(frame) - 3.0), pose(f64::from(frame)));
         let seen = seen(&then, &sun(), ground());
-        let maps = seen_cascades(&now, &town(), &sun(), &four(), &seen).unwrap().unwrap();
+        let maps = seen_cascades(&now, &town(), &sun(), &four(), &seen, depths).unwrap().unwrap();
+        depths = Some(maps.depths);
         for p in ground().into_iter().filter(|&p| is_on_screen(&now, p)) {
             let (map, is_net) = map_of(&maps, &now, p);
             assert!(map.is_some(), "{p} in frame {frame}");
@@ -122,10 +123,36 @@ fn what_was_seen_keeps_its_fine_map_when_the_sun_moves() {
     let camera = walker(DVec3::new(0.0, 1.7, 30.0), 0.0);
     let seen = seen(&camera, &sun(), ground());
     let later = Light::Directional { direction: DVec3::new(0.6, -1.0, -0.1), half_angle: 0.05 };
-    let maps = seen_cascades(&camera, &town(), &later, &four(), &seen).unwrap().unwrap();
+    let maps = seen_cascades(&camera, &town(), &later, &four(), &seen, None).unwrap().unwrap();
     for p in ground().into_iter().filter(|&p| is_on_screen(&camera, p)) {
         assert!(!map_of(&maps, &camera, p).1, "{p}");
     }
+}
+
+#[test]
+fn a_box_grows_with_the_first_picture_and_shrinks_with_the_third_without() {
+    let camera = walker(DVec3::new(0.0, 1.7, 30.0), 0.0);
+    let shown = |x: f64| seen(&camera, &sun(), ground().into_iter().filter(move |p| p.x.abs() < x));
+    let (narrow, wide) = (shown(4.0), shown(20.0));
+    let mut lately = SeenLately::default();
+    assert_eq!(lately.together(), None);
+    let sorted = |seen: &Seen| {
+        let mut bands = seen.bands.clone();
+        bands.sort_by_key(|seen| seen.band);
+        bands
+    };
+    for (picture, expected) in
+        [(&narrow, &narrow), (&wide, &wide), (&narrow, &wide), (&narrow, &wide), (&narrow, &narrow)]
+    {
+        lately.add(picture.clone(), 3);
+        assert_eq!(lately.together().unwrap().bands, sorted(expected));
+    }
+    // Under another sun boxes have other axes.
+    lately.add(wide, 3);
+    let later = Light::Directional { direction: DVec3::new(0.6, -1.0, -0.1), half_angle: 0.05 };
+    let under_later = seen(&camera, &later, [DVec3::ZERO]);
+    lately.add(under_later.clone(), 3);
+    assert_eq!(lately.together(), Some(&under_later));
 }
 
 #[test]
@@ -133,7 +160,7 @@ fn a_cut_and_pictures_without_a_receiver_leave_the_bounds() {
     let camera = walker(DVec3::new(0.0, 1.7, 30.0), 0.0);
     let seen_here = seen(&camera, &sun(), ground());
     let maps = |camera: &Camera, light: &Light, splits: &Splits, seen: &Seen| {
-        seen_cascades(camera, &town(), light, splits, seen).unwrap()
+        seen_cascades(camera, &town(), light, splits, seen, None).unwrap()
     };
     assert!(maps(&camera, &sun(), &four(), &seen_here).is_some());
     assert_eq!(maps(&walker(camera.eye, 1.5), &sun(), &four(), &seen_here), None);
@@ -143,15 +170,37 @@ fn a_cut_and_pictures_without_a_receiver_leave_the_bounds() {
     assert_eq!(maps(&camera, &lamp(), &four(), &seen_here), None);
     assert_eq!(maps(&camera, &sun(), &four(), &Seen { light: lamp(), ..seen_here.clone() }), None);
     let nan = Seen { camera: Camera { near: f64::NAN, ..camera }, ..seen_here };
-    assert!(seen_cascades(&camera, &town(), &sun(), &four(), &nan).is_err());
+    assert!(seen_cascades(&camera, &town(), &sun(), &four(), &nan, None).is_err());
 }
 
 #[test]
 fn a_still_camera_has_the_same_maps_in_every_picture() {
     let camera = walker(DVec3::new(0.0, 1.7, 30.0), 0.0);
     let seen = seen(&camera, &sun(), ground());
-    let maps = || seen_cascades(&camera, &town(), &sun(), &four(), &seen).unwrap();
+    let maps = || seen_cascades(&camera, &town(), &sun(), &four(), &seen, None).unwrap();
     assert_eq!(maps(), maps());
+}
+
+#[test]
+fn the_depths_between_which_a_view_is_cut_follow_what_is_seen_step_by_step() {
+    let camera = walker(DVec3::new(0.0, 1.7, 30.0), 0.0);
+    let shown = |far: f64| seen(&camera, &sun(), ground().into_iter().filter(move |p| p.z > far));
+    let cut = |seen: &Seen, last| seen_cascades(&camera, &town(), &sun(), &four(), seen, last).unwrap().unwrap();
+    let (all, near) = (shown(-40.0), shown(20.0));
+    let mut depths = cut(&all, None).depths;
+    let rest = cut(&near, None).depths;
+    assert!(rest[1] < 0.5 * depths[1]);
+    for _ in 0..200 {
+        let next = cut(&near, Some(depths)).depths;
+        for (next, last) in next.iter().zip(depths) {
+            assert!((next / last - 1.0).abs() < 0.01 + 1e-9, "{next} after {last}");
+        }
+        depths = next;
+    }
+    assert_eq!(depths, rest);
+    // On the way there nothing that is seen is without its map.
+    let slices = cut(&all, Some(rest)).slices;
+    assert!(slices[2].depth_end.is_infinite() && slices[2].fit.as_ref().unwrap().extent_world.max_element() > 20.0);
 }
 
 proptest! {
@@ -172,7 +221,7 @@ proptest! {
         let shown: Vec<DVec3> = points.iter().copied().step_by(2).collect();
         let seen = seen(&then, &light, shown.iter().copied());
         let splits = Splits { count, ..Splits::default() };
-        if let Some(maps) = seen_cascades(&now, &town(), &light, &splits, &seen).unwrap() {
+        if let Some(maps) = seen_cascades(&now, &town(), &light, &splits, &seen, None).unwrap() {
             for &p in points.iter().filter(|&&p| is_on_screen(&now, p)) {
                 let (map, is_net) = map_of(&maps, &now, p);
                 prop_assert!(map.is_some(), "{p} has no map");
