@@ -1,24 +1,25 @@
 //! glTF 2.0: `.gltf` with embedded or external buffers and `.glb`; the default scene with its node transforms.
 //!
 //! Lengths are metres and y is up, as the format says. Colour is the base colour factor, which is linear, times the
-//! texture's mean where the texture can be read; alpha is ignored, so that masked leaves cast whole quads. Not read:
-//! skins, morph targets, cameras, lights, compressed meshes. Only triangle lists, strips and fans count.
+//! texture's mean where the texture can be read; alpha counts where the material says that it cuts out. Not read:
+//! texture transforms, skins, morph targets, cameras, lights, compressed meshes. Only triangle lists, strips and fans count.
 
+use crate::gltf_images::{self, Image};
 use crate::oddities::Oddities;
 use crate::polygon::has_area;
-use crate::shading::{Loose, index};
-use crate::{Error, Mesh};
-use glam::{DAffine3, DMat4, Mat4, Vec3};
+use crate::shading::{Indexed, Loose, index};
+use crate::{AlphaMask, Error, Mesh};
+use glam::{DAffine3, DMat4, Mat4, Vec2, Vec3};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The file's parts that every step below needs.
 struct Source<'a> {
     file: &'a Path,
     buffers: &'a [gltf::buffer::Data],
-    /// Mean linear colour of each image; white where an image cannot be read.
-    image_means: &'a [Vec3],
+    images: &'a [Image],
 }
 
 /// Loads a glTF file, in metres and world space.
@@ -27,8 +28,8 @@ pub fn load_gltf(file: &Path) -> Result<Vec<Mesh>, Error> {
     let bytes = std::fs::read(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
     let (document, blob) = document_of(file, &bytes)?;
     let buffers = gltf::import_buffers(&document, file.parent(), blob).map_err(|problem| bad_buffer(file, &problem))?;
-    let image_means = crate::gltf_color::image_means(&document, file, &buffers);
-    let source = Source { file, buffers: &buffers, image_means: &image_means };
+    let images = gltf_images::images(&document, file, &buffers);
+    let source = Source { file, buffers: &buffers, images: &images };
 
     // Walk the default scene, or the first, or all root nodes of a file without scenes.
     let (mut meshes, mut oddities) = (Vec::new(), Oddities::default());
@@ -107,13 +108,16 @@ impl Source<'_> {
                 if loose.corners.is_empty() {
                     continue;
                 }
-                let (positions, normals, triangles) = index(&loose);
+                let Indexed { positions, normals, uvs, triangles } = index(&loose);
+                let texture = gltf_images::alpha_texture(&primitive.material(), self.images);
+                let mask = texture.filter(|_| !uvs.is_empty());
                 let named = Mesh {
                     name: mesh.name().map_or(place, str::to_owned),
                     positions,
                     normals,
                     triangles,
-                    linear_color: crate::gltf_color::linear_color(&primitive.material(), self.image_means),
+                    linear_color: gltf_images::linear_color(&primitive.material(), self.images),
+                    mask: mask.map(|(texture, _)| AlphaMask { uvs, texture: Arc::new(texture) }),
                 };
                 meshes.push(named.transformed(&DAffine3::from_mat4(world_from_node)));
             }
@@ -173,6 +177,7 @@ impl Source<'_> {
             ));
         }
 
+        let uvs = self.texture_coordinates(primitive, place, positions.len())?;
         let (mut loose, mut flat) = (Loose::default(), 0);
         for triangle in triangles_of(primitive.mode(), &indices) {
             let triangle = triangle.map(|i| i as usize);
@@ -180,11 +185,49 @@ impl Source<'_> {
             if has_area(corners) {
                 loose.corners.push(corners);
                 loose.normals.push(triangle.map(|i| normals.get(i).copied().unwrap_or(Vec3::ZERO)));
+                if !uvs.is_empty() {
+                    loose.uvs.push(triangle.map(|i| uvs[i]));
+                }
             } else {
                 flat += 1;
             }
         }
         Ok((loose, flat))
+    }
+
+    /// Those of the texture that cuts the primitive out, one a vertex; none where nothing does.
+    fn texture_coordinates(
+        &self,
+        primitive: &gltf::Primitive<'_>,
+        place: &str,
+        vertices: usize,
+    ) -> Result<Vec<Vec2>, Error> {
+        let Some((_, set)) = gltf_images::alpha_texture(&primitive.material(), self.images) else {
+            return Ok(Vec::new());
+        };
+        let Some(accessor) = primitive.get(&gltf::Semantic::TexCoords(set)) else {
+            tracing::warn!("{}: {place} has no texture coordinates for its mask; it is opaque", self.file.display());
+            return Ok(Vec::new());
+        };
+        let is_number = match accessor.data_type() {
+            DataType::F32 => true,
+            DataType::U8 | DataType::U16 => accessor.normalized(),
+            _ => false,
+        };
+        let is_pair = is_number && accessor.dimensions() == Dimensions::Vec2;
+        self.check_type(&accessor, is_pair, "allowed are texture coordinates of two floats or normalised integers")?;
+        self.check_range(&accessor)?;
+        let reader = primitive.reader(|buffer| self.buffers.get(buffer.index()).map(|data| &data.0[..]));
+        let uvs: Vec<Vec2> =
+            reader.read_tex_coords(set).map(|uvs| uvs.into_f32().map(Vec2::from_array).collect()).unwrap_or_default();
+        if uvs.len() != vertices || !uvs.iter().all(|uv| uv.is_finite()) {
+            return Err(self.content(
+                place,
+                format!("{} texture coordinates for {vertices} vertices, or one that is not finite", uvs.len()),
+                "allowed are two finite numbers for each vertex",
+            ));
+        }
+        Ok(uvs)
     }
 
     /// Refuses an accessor of a type that the reader does not take.

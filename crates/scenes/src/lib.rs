@@ -15,15 +15,16 @@
 //! ([`Scene::path`], [`Scene::moved`]).
 //!
 //! Goals: no shadow that the file does not hold (concave polygons are cut by ears, not as fans), every problem of a
-//! file as one line that names file and place, everything in metres. Not goals: textures, animation, transparency; a
-//! mesh has one colour.
+//! file as one line that names file and place, everything in metres. Not goals: textures but for what they cut out ([`AlphaMask`]),
+//! animation, transparency; a mesh has one colour.
 
+mod alpha_mask;
 mod automatic;
 mod catalogue;
 mod compositions;
 mod error;
-mod gltf_color;
 mod gltf_file;
+mod gltf_images;
 mod mesh;
 mod model;
 mod models;
@@ -37,6 +38,7 @@ mod scene;
 mod shading;
 mod shapes;
 
+pub use alpha_mask::{AlphaMask, AlphaTexture, Wrap};
 pub use catalogue::{Entry, Model, catalogue, open};
 pub use error::Error;
 pub use gltf_file::load_gltf;

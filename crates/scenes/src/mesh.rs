@@ -1,12 +1,13 @@
 //! Triangles of one colour, and the few operations that put a model into a scene.
 
+use crate::AlphaMask;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use scumble_core::Aabb;
 
 /// Triangles of one colour, in world space and metres once they are part of a [`crate::Scene`].
 ///
 /// Promised by the loaders, relied on by everybody else: every position is finite, every normal has length 1,
-/// there is one normal per position, every index is in range, and no triangle has zero area in `f32`.
+/// there is one normal per position and one texture coordinate in a mask, every index is in range, and no triangle has zero area in `f32`.
 /// Not promised: closed surfaces, consistent winding, single faces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
@@ -20,6 +21,8 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// Diffuse reflectance, linear sRGB, each 0..=1.
     pub linear_color: Vec3,
+    /// What is cut out of it, as leaves are of their cards; `None` where nothing is.
+    pub mask: Option<AlphaMask>,
 }
 
 impl Mesh {

@@ -5,7 +5,7 @@
 
 use crate::oddities::Oddities;
 use crate::polygon::{has_area, triangulate};
-use crate::shading::{Loose, index};
+use crate::shading::{Indexed, Loose, index};
 use crate::{Error, Mesh, obj_lines};
 use glam::Vec3;
 use std::io::BufReader;
@@ -83,7 +83,7 @@ fn mesh_of(model: &tobj::Model, materials: &[tobj::Material], oddities: &mut Odd
     let material = model.mesh.material_id.and_then(|id| materials.get(id));
     let (loose, flat) = loose_triangles(&model.mesh);
     oddities.add(&model.name, flat, &loose);
-    let (positions, normals, triangles) = index(&loose);
+    let Indexed { positions, normals, triangles, .. } = index(&loose);
     Mesh {
         name: match material {
             Some(material) => format!("{}/{}", model.name, material.name),
@@ -95,6 +95,7 @@ fn mesh_of(model: &tobj::Model, materials: &[tobj::Material], oddities: &mut Odd
         linear_color: material
             .and_then(|m| m.diffuse)
             .map_or(NO_MATERIAL, |srgb| Vec3::from_array(srgb.map(linear_from_srgb))),
+        mask: None,
     }
 }
 

@@ -52,7 +52,7 @@ mod tests {
 
     fn loose(corners: Vec<[Vec3; 3]>) -> Loose {
         let normals = vec![[Vec3::ZERO; 3]; corners.len()];
-        Loose { corners, normals }
+        Loose { corners, normals, uvs: Vec::new() }
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! crease angle of the corner's own face. Positions are shared when all three coordinates are equal, so that seams of
 //! a file's own indices do not show. The two sides of a doubled face are 180 degrees apart and never mix.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 
 /// Edges sharper than this stay sharp, 40 degrees: above a 12-sided pole (30), below a bevel (45).
@@ -18,37 +18,51 @@ pub struct Loose {
     pub corners: Vec<[Vec3; 3]>,
     /// Normals given at the corners, of any length; zero where the file gives none. As many as `corners`.
     pub normals: Vec<[Vec3; 3]>,
+    /// Texture coordinates at the corners; as many as `corners`, or none.
+    pub uvs: Vec<[Vec2; 3]>,
 }
 
-/// Indexed triangles: positions, unit normals, indices.
-pub type Indexed = (Vec<Vec3>, Vec<Vec3>, Vec<[u32; 3]>);
+/// Triangles by indices.
+#[derive(Debug, Default)]
+pub struct Indexed {
+    /// Corners.
+    pub positions: Vec<Vec3>,
+    /// Of length 1, one a position.
+    pub normals: Vec<Vec3>,
+    /// One a position, or none.
+    pub uvs: Vec<Vec2>,
+    /// Three indices into `positions` each.
+    pub triangles: Vec<[u32; 3]>,
+}
 
-/// Gives every corner its normal and shares the corners that agree in position and normal.
+/// Gives every corner its normal and shares the corners that agree in position, normal and texture coordinate.
 pub fn index(loose: &Loose) -> Indexed {
     let faces: Vec<DVec3> = loose.corners.iter().map(area_normal).collect();
     let around = faces_around_positions(loose);
 
-    let mut known: HashMap<[u32; 6], u32> = HashMap::new();
-    let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    let mut known: HashMap<[u32; 8], u32> = HashMap::new();
+    let mut indexed = Indexed::default();
     for (face, (corners, given)) in loose.corners.iter().zip(&loose.normals).enumerate() {
         let mut triangle = [0; 3];
-        for (slot, (&position, &given)) in triangle.iter_mut().zip(corners.iter().zip(given)) {
+        for (corner, (slot, (&position, &given))) in triangle.iter_mut().zip(corners.iter().zip(given)).enumerate() {
             let normal = given
                 .as_dvec3()
                 .try_normalize()
                 .unwrap_or_else(|| creased(face, &around[&bits(position)], &faces))
                 .as_vec3();
-            let key = [bits(position), bits(normal)].concat();
-            let key: [u32; 6] = std::array::from_fn(|i| key[i]);
-            *slot = *known.entry(key).or_insert_with(|| {
-                positions.push(position);
-                normals.push(normal);
-                positions.len() as u32 - 1
+            let uv = loose.uvs.get(face).map(|uvs| uvs[corner]);
+            let ([x, y, z], [nx, ny, nz]) = (bits(position), bits(normal));
+            let [u, v] = uv.unwrap_or_default().to_array().map(f32::to_bits);
+            *slot = *known.entry([x, y, z, nx, ny, nz, u, v]).or_insert_with(|| {
+                indexed.positions.push(position);
+                indexed.normals.push(normal);
+                indexed.uvs.extend(uv);
+                indexed.positions.len() as u32 - 1
             });
         }
-        triangles.push(triangle);
+        indexed.triangles.push(triangle);
     }
-    (positions, normals, triangles)
+    indexed
 }
 
 /// The face's normal with twice its area as length.
@@ -90,7 +104,7 @@ mod tests {
 
     fn without_normals(corners: Vec<[Vec3; 3]>) -> Loose {
         let normals = vec![[Vec3::ZERO; 3]; corners.len()];
-        Loose { corners, normals }
+        Loose { corners, normals, uvs: Vec::new() }
     }
 
     /// Two unit triangles that share the edge from the origin to +z, the second turned by `angle` out of the plane.
@@ -106,13 +120,13 @@ mod tests {
 
     #[test]
     fn a_flat_edge_is_smooth_and_a_sharp_edge_is_doubled() {
-        assert_eq!(index(&roof(0.5)).0.len(), 4);
-        assert_eq!(index(&roof(0.8)).0.len(), 6);
+        assert_eq!(index(&roof(0.5)).positions.len(), 4);
+        assert_eq!(index(&roof(0.8)).positions.len(), 6);
     }
 
     #[test]
     fn a_smooth_edge_has_the_mean_normal() {
-        let (positions, normals, _) = index(&roof(0.5));
+        let Indexed { positions, normals, .. } = index(&roof(0.5));
         let at_edge = positions.iter().position(|&p| p == Vec3::Z).unwrap();
         let mean = Vec3::new(0.25f32.sin(), 0.25f32.cos(), 0.0);
         let same_or_opposite = normals[at_edge].dot(mean).abs();
@@ -123,7 +137,7 @@ mod tests {
     fn the_two_sides_of_a_doubled_face_keep_opposite_normals() {
         let side = [Vec3::ZERO, Vec3::X, Vec3::Z];
         let other = [Vec3::ZERO, Vec3::Z, Vec3::X];
-        let (_, normals, triangles) = index(&without_normals(vec![side, other]));
+        let Indexed { normals, triangles, .. } = index(&without_normals(vec![side, other]));
         let [front, back] = [0, 1].map(|t: usize| normals[triangles[t][0] as usize]);
         assert_eq!(front, -back);
     }
@@ -133,11 +147,22 @@ mod tests {
         let loose = Loose {
             corners: vec![[Vec3::ZERO, Vec3::X, Vec3::Z]],
             normals: vec![[Vec3::new(3.0, 0.0, 4.0), Vec3::ZERO, Vec3::Y * 1e-20]],
+            uvs: Vec::new(),
         };
-        let (_, normals, triangles) = index(&loose);
+        let Indexed { normals, triangles, .. } = index(&loose);
         let [a, b, c] = triangles[0].map(|i| normals[i as usize]);
         assert_eq!(a, Vec3::new(0.6, 0.0, 0.8));
         assert_eq!(b, Vec3::NEG_Y);
         assert_eq!(c, Vec3::Y);
+    }
+
+    #[test]
+    fn a_seam_of_texture_coordinates_doubles_its_corners() {
+        let uvs = [[Vec2::ZERO, Vec2::Y, Vec2::X], [Vec2::ZERO, Vec2::X, Vec2::Y]];
+        let seamless = Loose { uvs: uvs.to_vec(), ..roof(0.5) };
+        let indexed = index(&seamless);
+        assert_eq!((indexed.positions.len(), indexed.uvs.len()), (4, 4));
+        let torn = Loose { uvs: vec![uvs[0], uvs[1].map(|uv| uv + 2.0)], ..roof(0.5) };
+        assert_eq!(index(&torn).uvs.len(), 6);
     }
 }

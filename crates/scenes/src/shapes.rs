@@ -43,7 +43,14 @@ pub fn shade(name: &str, foot: DVec3, radii: [f64; 2], height: f64, linear_color
 }
 
 fn empty(name: &str, linear_color: Vec3) -> Mesh {
-    Mesh { name: name.to_owned(), positions: Vec::new(), normals: Vec::new(), triangles: Vec::new(), linear_color }
+    Mesh {
+        name: name.to_owned(),
+        positions: Vec::new(),
+        normals: Vec::new(),
+        triangles: Vec::new(),
+        linear_color,
+        mask: None,
+    }
 }
 
 /// Appends a planar quad, counter-clockwise from the side of its normal.
