@@ -59,6 +59,7 @@ fn field(per_side: u32) -> Scene {
         normals: vec![Vec3::Y; (across * across) as usize],
         triangles: (0..per_side * per_side).flat_map(square).collect(),
         linear_color: Vec3::ONE,
+        mask: None,
     };
     let camera = Camera {
         eye: DVec3::new(0.0, 20.0, 0.0),

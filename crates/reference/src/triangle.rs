@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use glam::{DVec3, Vec3, Vec3A};
+use glam::{DVec3, Vec2, Vec3, Vec3A};
 use obvhs::aabb::Aabb;
 use scumble_scenes::{Mesh, Scene};
 
@@ -60,9 +60,23 @@ pub struct Meeting {
     barycentric: [f64; 2],
 }
 
-/// The triangles of a scene in world space, and what was left out of them.
-pub fn triangles_of(scene: &Scene) -> (Vec<Triangle>, Vec<Skipped>) {
+impl Meeting {
+    /// A value that is linear between the corners, of those at the corners.
+    pub fn between(&self, corners: [Vec2; 3]) -> Vec2 {
+        let [u, v] = self.barycentric;
+        let [a, b, c] = corners.map(|corner| corner.as_dvec2());
+        (a * (1.0 - u - v) + b * u + c * v).as_vec2()
+    }
+}
+
+/// Texture coordinates of the corners of triangles, in their order; empty for a scene that nothing is cut out of.
+pub type CornerUvs = Vec<[Vec2; 3]>;
+
+/// The triangles of a scene in world space, their texture coordinates, and what was left out of them.
+pub fn triangles_of(scene: &Scene) -> (Vec<Triangle>, CornerUvs, Vec<Skipped>) {
     let mut triangles = Vec::with_capacity(scene.triangle_count());
+    let mut uvs = CornerUvs::new();
+    let has_masks = scene.meshes.iter().any(|mesh| mesh.mask.is_some());
     let mut skipped = Vec::new();
     for (index, mesh) in scene.meshes.iter().enumerate() {
         let (mut broken, mut flat) = (0, 0);
@@ -70,14 +84,23 @@ pub fn triangles_of(scene: &Scene) -> (Vec<Triangle>, Vec<Skipped>) {
             match Triangle::new(mesh, index as u32, corners) {
                 None => broken += 1,
                 Some(triangle) if triangle.is_flat() => flat += 1,
-                Some(triangle) => triangles.push(triangle),
+                Some(triangle) => {
+                    triangles.push(triangle);
+                    uvs.extend(has_masks.then(|| uvs_of(mesh, corners)));
+                }
             }
         }
         if broken + flat > 0 {
             skipped.push(Skipped { mesh: mesh.name.clone(), triangles: mesh.triangles.len(), broken, flat });
         }
     }
-    (triangles, skipped)
+    (triangles, uvs, skipped)
+}
+
+/// Zero where the mesh has none.
+fn uvs_of(mesh: &Mesh, corners: [u32; 3]) -> [Vec2; 3] {
+    let uv = |corner: u32| mesh.mask.as_ref().and_then(|mask| mask.uvs.get(corner as usize)).copied();
+    corners.map(|corner| uv(corner).unwrap_or_default())
 }
 
 impl Triangle {
@@ -94,6 +117,11 @@ impl Triangle {
     fn is_flat(&self) -> bool {
         let [e0, e1] = self.edges;
         e0.cross(e1).length() <= AREA_SHARE * e0.length() * e1.length()
+    }
+
+    /// Index of its mesh.
+    pub fn mesh(&self) -> usize {
+        self.mesh as usize
     }
 
     /// The corners.

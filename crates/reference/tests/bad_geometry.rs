@@ -79,6 +79,7 @@ fn triangles_without_an_area_are_named_and_no_ray_stops_at_them() {
         normals: vec![Vec3::Y; 3],
         triangles: vec![[0, 1, 2], [0, 0, 0], [1, 2, 1]],
         linear_color: Vec3::ONE,
+        mask: None,
     });
     let found = scene(meshes);
     assert_eq!(truths(&found), expected);
@@ -113,7 +114,7 @@ fn no_triangle_of_a_fan_of_slender_ones_is_lost() {
     positions.push(Vec3::new(1.0, 1.0, 0.0));
     let triangles: Vec<[u32; 3]> = (0..count - 1).map(|i| [count, i, i + 1]).collect();
     let normals = vec![Vec3::Y; positions.len()];
-    let fan = Mesh { name: "fan".to_owned(), positions, normals, triangles, linear_color: Vec3::ONE };
+    let fan = Mesh { name: "fan".to_owned(), positions, normals, triangles, linear_color: Vec3::ONE, mask: None };
     let rays = Rays::new(&scene(vec![fan]));
     for i in 0..20_000_u32 {
         let (turn, radius) = (f64::from(i) * 2.399_963, (f64::from(i) / 20_000.0).sqrt() * 0.999);

@@ -17,6 +17,7 @@ use wgpu::util::DeviceExt;
 
 use crate::device::Gpu;
 use crate::geometry::Geometry;
+use crate::masks::{UV_LAYOUT, mask_layout};
 use crate::readback::read_texture;
 use crate::shading::LightingUniform;
 
@@ -46,6 +47,7 @@ pub struct Surface {
 /// The pipeline that fills a [`GBuffer`], and the layout by which later passes read it.
 pub struct GBufferPass {
     pipeline: wgpu::RenderPipeline,
+    masked: wgpu::RenderPipeline,
     camera_layout: wgpu::BindGroupLayout,
     /// Group 0 of the full-screen passes: camera, the four textures, lighting.
     pub layout: wgpu::BindGroupLayout,
@@ -69,45 +71,66 @@ impl GBufferPass {
                 uniform_entry(5),
             ],
         });
-        let source = concat!(include_str!("../shader/camera.wgsl"), include_str!("../shader/gbuffer.wgsl"));
+        let source = concat!(
+            include_str!("../shader/camera.wgsl"),
+            include_str!("../shader/mask.wgsl"),
+            include_str!("../shader/gbuffer.wgsl")
+        );
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("g-buffer"),
             source: wgpu::ShaderSource::Wgsl(source.into()),
         });
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("g-buffer"),
-            bind_group_layouts: &[Some(&camera_layout)],
-            immediate_size: 0,
-        });
         let targets = [POSITION_FORMAT, NORMAL_FORMAT, NORMAL_FORMAT, COLOR_FORMAT].map(|format| Some(format.into()));
-        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("g-buffer"),
-            layout: Some(&pipeline_layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vertex"),
-                compilation_options: Default::default(),
-                buffers: &[Some(Geometry::POSITION_LAYOUT), Some(Geometry::ATTRIBUTE_LAYOUT)],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: DEPTH_FORMAT,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Less),
-                stencil: Default::default(),
-                bias: Default::default(),
-            }),
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fragment"),
-                compilation_options: Default::default(),
-                targets: &targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
-        Self { pipeline, camera_layout, layout }
+        let (position, attributes) = (Some(Geometry::POSITION_LAYOUT), Some(Geometry::ATTRIBUTE_LAYOUT));
+        let pipeline = |entry_points: [&str; 2], groups: &[Option<&wgpu::BindGroupLayout>], buffers: &[_]| {
+            let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("g-buffer"),
+                bind_group_layouts: groups,
+                immediate_size: 0,
+            });
+            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some("g-buffer"),
+                layout: Some(&layout),
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some(entry_points[0]),
+                    compilation_options: Default::default(),
+                    buffers,
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: Some(wgpu::DepthStencilState {
+                    format: DEPTH_FORMAT,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(wgpu::CompareFunction::Less),
+                    stencil: Default::default(),
+                    bias: Default::default(),
+                }),
+                multisample: Default::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some(entry_points[1]),
+                    compilation_options: Default::default(),
+                    targets: &targets,
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        let mask = mask_layout(gpu);
+        Self {
+            pipeline: pipeline(
+                ["vertex", "fragment"],
+                &[Some(&camera_layout)],
+                &[position.clone(), attributes.clone()],
+            ),
+            masked: pipeline(
+                ["vertex_masked", "fragment_masked"],
+                &[Some(&camera_layout), Some(&mask)],
+                &[position, attributes, Some(UV_LAYOUT)],
+            ),
+            camera_layout,
+            layout,
+        }
     }
 }
 
@@ -201,6 +224,10 @@ impl GBuffer {
         render.set_pipeline(&pass.pipeline);
         render.set_bind_group(0, &self.camera_bind_group, &[]);
         geometry.draw(&mut render);
+        if let Some(masked) = geometry.masked() {
+            render.set_pipeline(&pass.masked);
+            masked.draw(&mut render, 2);
+        }
     }
 
     /// The surface of every pixel, rows from top to bottom.
@@ -278,7 +305,8 @@ pub fn entry(binding: u32, resource: wgpu::BindingResource<'_>) -> wgpu::BindGro
     wgpu::BindGroupEntry { binding, resource }
 }
 
-fn uniform_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+/// A uniform buffer of vertices and fragments.
+pub fn uniform_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,

@@ -16,6 +16,7 @@ mod evaluation;
 mod fullscreen;
 mod gbuffer;
 mod geometry;
+mod masks;
 mod npy;
 mod output;
 mod pipelines;

@@ -4,7 +4,9 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 const CAMERA: &str = include_str!("../shader/camera.wgsl");
 const READ: &str = include_str!("../shader/gbuffer_read.wgsl");
+const MASK: &str = include_str!("../shader/mask.wgsl");
 const LIGHTING: &str = include_str!("../shader/lighting.wgsl");
+
 fn check(parts: &[&str]) {
     let source = parts.join("\n");
     let module =
@@ -16,9 +18,9 @@ fn check(parts: &[&str]) {
 
 #[test]
 fn every_shader_is_valid() {
-    check(&[CAMERA, include_str!("../shader/gbuffer.wgsl")]);
+    check(&[CAMERA, MASK, include_str!("../shader/gbuffer.wgsl")]);
     check(&[READ, &scumble::shadow_wgsl(1), include_str!("../shader/evaluation.wgsl")]);
     check(&[CAMERA, READ, LIGHTING, include_str!("../shader/ambient.wgsl")]);
     check(&[CAMERA, READ, LIGHTING, include_str!("../shader/shading.wgsl")]);
-    check(&[include_str!("../shader/caster.wgsl")]);
+    check(&[MASK, include_str!("../shader/caster.wgsl")]);
 }

@@ -8,7 +8,7 @@ use std::fmt;
 
 use scumble_core::Taps;
 use scumble_reference::Receiver;
-use scumble_scenes::Mesh;
+use scumble_scenes::{AlphaMask, Mesh};
 use sha2::{Digest, Sha256};
 
 /// Of the computation: raised whenever a truth of `scumble-reference` comes out different from the same input.
@@ -54,7 +54,16 @@ impl KeyBuilder {
             key.bytes(bytemuck::cast_slice(&mesh.positions))
                 .bytes(bytemuck::cast_slice(&mesh.normals))
                 .bytes(bytemuck::cast_slice(mesh.triangles.as_flattened()))
+                .mask(mesh.mask.as_ref())
         })
+    }
+
+    /// What is cut out of a mesh; nothing for nothing.
+    fn mask(self, mask: Option<&AlphaMask>) -> Self {
+        let Some(AlphaMask { uvs, texture }) = mask else { return self };
+        self.bytes(bytemuck::cast_slice(uvs))
+            .bytes(&texture.alphas)
+            .text(&format!("{:?} {:?} {}", texture.size, texture.wrap, texture.cutoff))
     }
 
     /// Points of whose visibility is asked, in order.
@@ -91,8 +100,8 @@ impl Key {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DVec3, Vec3};
-    use scumble_scenes::{cuboid, ground};
+    use glam::{DVec3, UVec2, Vec2, Vec3};
+    use scumble_scenes::{AlphaTexture, Wrap, cuboid, ground};
 
     use super::*;
 
@@ -113,11 +122,15 @@ mod tests {
         moved[1].positions[3].x += 1e-6;
         let mut turned = meshes();
         turned[1].triangles[0].swap(0, 1);
+        let mut cut = meshes();
+        let texture = AlphaTexture { size: UVec2::ONE, alphas: [0].into(), wrap: [Wrap::Clamp; 2], cutoff: 0.5 };
+        cut[0].mask = Some(AlphaMask { uvs: vec![Vec2::ZERO; 4], texture: texture.into() });
         let mut other_turn = receiver(0.0);
         other_turn.pixel[0] += 1;
         let others = [
             key(&moved, &[receiver(0.0)], 8, "sun"),
             key(&turned, &[receiver(0.0)], 8, "sun"),
+            key(&cut, &[receiver(0.0)], 8, "sun"),
             key(&meshes()[..1], &[receiver(0.0)], 8, "sun"),
             key(&meshes(), &[receiver(1e-7)], 8, "sun"),
             key(&meshes(), &[other_turn], 8, "sun"),
