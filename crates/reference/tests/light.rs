@@ -42,6 +42,7 @@ fn lid(outline: &[DVec2]) -> Mesh {
         normals: vec![Vec3::Y; outline.len()],
         triangles: (0..count - 2).map(|i| [i, i + 1, i + 2].map(zigzag)).collect(),
         linear_color: Vec3::ONE,
+        mask: None,
     }
 }
 
