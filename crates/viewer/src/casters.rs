@@ -67,7 +67,7 @@ impl CasterPass {
         let position = Some(Geometry::POSITION_LAYOUT);
         let mask = mask_layout(gpu);
         Self {
-            pipeline: pipeline("caster", None, &[Some(&layout)], &[position.clone()]),
+            pipeline: pipeline("caster", None, &[Some(&layout)], std::slice::from_ref(&position)),
             masked: pipeline(
                 "caster_masked",
                 Some("cut_out"),

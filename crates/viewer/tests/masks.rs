@@ -50,8 +50,7 @@ fn card(folder: &Path, alpha_mode: &str) -> PathBuf {
 /// The row of a fixed map that is fine enough for its texels not to count, against the same filter by rays.
 fn row(alpha_mode: &str) -> serde_json::Value {
     let folder = tempfile::tempdir().unwrap();
-    let (scene, out, cache) =
-        (card(folder.path(), alpha_mode), folder.path().join("out"), folder.path().join("cache"));
+    let (scene, out, cache) = (card(folder.path(), alpha_mode), folder.path().join("out"), folder.path().join("cache"));
     let text = |path: &Path| path.to_str().unwrap().to_owned();
     let output = Command::new(env!("CARGO_BIN_EXE_scumble-viewer"))
         .args(["bench", "--scenes", &text(&scene), "--methods", "pcf", "--sizes", "2048", "--radius", "0.05"])
