@@ -22,7 +22,8 @@ Examples:
   scumble-viewer truth --scene stairwell --truth light --samples 256 --out light.png
       the light itself, by 256 rays a pixel, with its standard error in light.se.npy
 
-`scumble-viewer scenes` lists the catalogue. Lengths are metres.";
+`scumble-viewer scenes` lists the catalogue. Lengths are metres. In the repository, \
+`cargo run --release -p scumble-viewer --` stands for `scumble-viewer`.";
 
 /// Pictures and benchmarks of adaptive shadow maps on real scenes.
 #[derive(Debug, Parser)]
@@ -103,17 +104,17 @@ pub struct Bench {
     /// [default: 256, with --quick 64]
     #[arg(long, value_name = "N")]
     pub light_samples: Option<u32>,
-    /// Where finished truths are kept, as for truth
+    /// Where finished truths are kept, so that a second run is quick; `truth --help` says more
     #[arg(long, value_name = "DIR")]
     pub cache: Option<PathBuf>,
     /// Half the width and height, one sample per pixel in the pictures
     #[arg(long)]
     pub quick: bool,
-    /// Besides, adaptive maps while camera or light moves, and the largest fixed ones beside them: size, time, and what
-    /// changes at fixed points. Paths, separated by commas
+    /// Measures on the way, too: adaptive maps while camera or light moves, and the largest fixed ones beside them, by size,
+    /// time, and what changes at fixed points. Paths, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', value_name = "P,P")]
     pub paths: Vec<Motion>,
-    /// Besides, adaptive maps chosen by ratios from 0.5 to 10: how error and violation depend on it
+    /// Measures the choice of the ratio, too: error and violation of adaptive maps chosen by ratios from 0.5 to 10
     #[arg(long)]
     pub sweep_ratio: bool,
     /// The bench.json of a former run; prints what changed beyond noise: times whose quartile ranges do not overlap and

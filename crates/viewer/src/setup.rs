@@ -129,6 +129,10 @@ pub fn assets(asked: Option<&Path>) -> PathBuf {
     let beside = std::env::current_exe().ok().and_then(|program| Some(program.parent()?.join("assets")));
     match beside.filter(|path| path.is_dir()) {
         Some(path) => path,
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets"),
+        // Without the dots of a path through this crate, where it can be found.
+        None => {
+            let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets");
+            assets.canonicalize().unwrap_or(assets)
+        }
     }
 }

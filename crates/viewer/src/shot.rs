@@ -6,7 +6,7 @@ use anyhow::Result;
 use scumble::Light;
 use serde::Serialize;
 
-use crate::cli::Shot;
+use crate::cli::{Shot, Size};
 use crate::device::Gpu;
 use crate::output::{claim_with_record, write_json, write_png};
 use crate::record::{MachineRecord, MapRecord, RatioRecord};
@@ -95,6 +95,12 @@ pub fn run(options: &Shot) -> Result<()> {
         machine: MachineRecord::of(&stage.gpu),
     };
     write_json(&record_path, &record)?;
-    println!("{}: {} texels, {}", picture_path.display(), record.texels, record_path.display());
+    let is_adaptive = matches!(options.size, Size::Adaptive(_));
+    let words = |map: &MapRecord| {
+        let [_, _, across, down] = map.viewport;
+        format!("{across} x {down}{}", if is_adaptive && map.capped { " (cap)" } else { "" })
+    };
+    let maps: Vec<String> = record.maps.iter().map(words).collect();
+    println!("{}: {} texels, {}; {}", picture_path.display(), record.texels, maps.join(" + "), record_path.display());
     Ok(())
 }

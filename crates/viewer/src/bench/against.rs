@@ -2,8 +2,10 @@
 //!
 //! Rows are paired by scene, method and size. A time changed where its quartile ranges do not overlap and the medians
 //! differ by more than 5 %: on a busy machine either alone happens by chance. Texels are counted, so that any difference
-//! is one. The error is the RMS in the penumbra; it changed where it differs by more than 2 %.
+//! is one. The error is the RMS in the penumbra; it changed where it differs by more than 2 %. The time of drawing, which is
+//! the scene's, tells a busier machine from slower shadows.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use anyhow::Result;
@@ -17,11 +19,13 @@ use crate::statistics::Spread;
 const TIME_SHARE: f64 = 0.05;
 /// Least change of an error: on another driver the third digit differs by rounding at the edges of texels.
 const ERROR_SHARE: f64 = 0.02;
+/// The part of a frame that is no shadow's.
+const DRAWING: &str = "drawing";
 
 /// What a comparison found, for a terminal.
 #[derive(Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Other devices and options, which make numbers differ that no code changed; rows in one of the runs only.
+    /// Other devices, options and loads, which make numbers differ that no code changed; rows in one of the runs only.
     pub notes: Vec<String>,
     /// Slower, more texels, or a larger error.
     pub worse: Vec<String>,
@@ -34,15 +38,41 @@ pub struct Changes {
 /// Compares two runs.
 pub fn changes(old: &BenchRecord, new: &BenchRecord) -> Result<Changes> {
     let mut changes = Changes { notes: conditions(old, new)?, ..Changes::default() };
+    changes.notes.extend(loads(old, new));
+    for (run, rows, others) in [("new", &new.rows, &old.rows), ("old", &old.rows, &new.rows)] {
+        changes.notes.extend(only_in(run, rows, others));
+    }
     for row in &new.rows {
-        match find(&old.rows, row) {
-            Some(before) => changes.compare(before, row),
-            None => changes.notes.push(format!("{}: only in the new run", row.key)),
+        if let Some(before) = find(&old.rows, row) {
+            changes.compare(before, row);
         }
     }
-    let gone = old.rows.iter().filter(|row| find(&new.rows, row).is_none());
-    changes.notes.extend(gone.map(|row| format!("{}: only in the old run", row.key)));
     Ok(changes)
+}
+
+/// The scenes whose drawing takes another time, by the first row that both runs have.
+fn loads(old: &BenchRecord, new: &BenchRecord) -> Vec<String> {
+    let mut scenes = BTreeSet::new();
+    let load = |row: &Row| {
+        let (then, now) = (find(&old.rows, row)?.times_ms.get(DRAWING)?, row.times_ms.get(DRAWING)?);
+        (scenes.insert(row.key.scene.clone()) && differ(then, now)).then(|| {
+            format!(
+                "{}: drawing without shadows {:.2} -> {:.2} ms: another load of the machine, or other code than that of shadows",
+                row.key.scene, then.median, now.median
+            )
+        })
+    };
+    new.rows.iter().filter_map(load).collect()
+}
+
+/// The rows that the other run has not: the first by name, and how many more.
+fn only_in(run: &str, rows: &[Row], others: &[Row]) -> Option<String> {
+    let mut alone = rows.iter().filter(|row| find(others, row).is_none());
+    let first = alone.next()?;
+    Some(match alone.count() {
+        0 => format!("only in the {run} run: {}", first.key),
+        more => format!("only in the {run} run: {} and {more} more", first.key),
+    })
 }
 
 fn find<'a>(rows: &'a [Row], like: &Row) -> Option<&'a Row> {
@@ -77,7 +107,7 @@ fn conditions(old: &BenchRecord, new: &BenchRecord) -> Result<Vec<String>> {
 impl Changes {
     fn compare(&mut self, old: &Row, new: &Row) {
         self.pairs += 1;
-        for (part, now) in &new.times_ms {
+        for (part, now) in new.times_ms.iter().filter(|(part, _)| *part != DRAWING) {
             if let Some(then) = old.times_ms.get(part).filter(|then| differ(then, now)) {
                 self.add(new, part, then.median, now.median, "ms");
             }
@@ -176,10 +206,28 @@ mod tests {
             [
                 "another device: a device, a driver then, another, a driver now; times compare the two",
                 "width: 1280 there, 640 here",
-                "yard pcss 2048: only in the new run",
-                "yard pcf 2048: only in the old run",
+                "only in the new run: yard pcss 2048",
+                "only in the old run: yard pcf 2048",
             ]
         );
         assert!(found.to_string().ends_with("0 rows compared: 0 numbers worse, 0 better"));
+        let three = ["1024", "2048", "4096"].map(|size| row("yard", "pcf", size, 10.0, 0.05));
+        let many = changes(&record(three.into()), &record(Vec::new())).unwrap();
+        assert_eq!(many.notes, ["only in the old run: yard pcf 1024 and 2 more"]);
+    }
+
+    #[test]
+    fn a_slower_drawing_is_a_note_once_a_scene_and_no_row_is_worse_for_it() {
+        let run = |median: f64| {
+            let drawing = Spread { median, lower_quartile: 0.99 * median, upper_quartile: 1.01 * median };
+            let mut rows = ["1024", "2048"].map(|size| row("yard", "pcf", size, 10.0, 0.05));
+            for row in &mut rows {
+                row.times_ms.insert(DRAWING.into(), drawing);
+            }
+            record(rows.into())
+        };
+        let found = changes(&run(80.0), &run(200.0)).unwrap();
+        assert_eq!((found.notes.len(), found.worse.len(), found.pairs), (1, 0, 2));
+        assert!(found.notes[0].starts_with("yard: drawing without shadows 80.00 -> 200.00 ms"), "{found}");
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::bench::record::BenchRecord;
 use crate::bench::reference::{Pair, pairs};
 use crate::bench::row::Row;
-use crate::bench::trade::{Place, trades};
+use crate::bench::trade::{Place, Trade, trades};
 use crate::statistics::Spread;
 
 /// By this a run knows the tables of a former one.
@@ -30,13 +30,30 @@ pub fn markdown(record: &BenchRecord) -> String {
         options.cap,
     );
     page += "\n## Adaptive against fixed\n\n| scene | filter | fixed | adaptive | texels, times fewer | time | of it, size | RMS error, \
-             penumbra | against the light | frame rate | error in equal time | time for equal error |\n\
-             |---|---|---|---|---|---|---|---|---|---|---|---|\n";
-    for pair in pairs(&record.rows) {
-        page += &ratios(&pair, record);
+             penumbra | against the light | frame rate |";
+    // One fixed size is no curve.
+    let trades = trades(&record.rows);
+    page += match trades.is_empty() {
+        true => "\n|---|---|---|---|---|---|---|---|---|---|\n",
+        false => " error in equal time | time for equal error |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+    };
+    let pairs = pairs(&record.rows);
+    for pair in &pairs {
+        page += &ratios(pair, record);
+        if !trades.is_empty() {
+            page += &places(trades.iter().find(|trade| trade.key == pair.adaptive.key));
+        }
+        page.push('\n');
     }
     page += "\nAll ratios are adaptive over fixed. *Of it, size*: over a fixed map that skips filters as the adaptive one does. \
-             *Frame rate*: with receivers and shading. The last two are over the curve of all fixed sizes.\n\n## All sizes\n\n\
+             *Frame rate*: with receivers and shading.";
+    if !trades.is_empty() {
+        page += " The last two are over the curve of all fixed sizes.";
+    }
+    if let Some(share) = pairs.iter().find_map(|pair| pair.adaptive.key.share()) {
+        let _ = write!(page, " *@{share}*: that share of the penumbra's pixels, the narrowest, may show texels.");
+    }
+    page += "\n\n## All sizes\n\n\
              | scene | filter | size | texels | million | depth, ms | moments, ms | demand, ms | evaluation, ms | total, ms | RMS, penumbra | 99 % | \
              against the light | tilted edges | violation |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for row in &record.rows {
@@ -46,15 +63,8 @@ pub fn markdown(record: &BenchRecord) -> String {
 }
 
 fn ratios(pair: &Pair<'_>, record: &BenchRecord) -> String {
-    let trade = trades(&record.rows).into_iter().find(|trade| trade.key == pair.adaptive.key);
-    let place = |place: Option<Place>, below: &str, above: &str| match place {
-        None => "-".to_owned(),
-        Some(Place::Ratio(ratio)) => format!("{ratio:.2}"),
-        Some(Place::BelowAll) => below.to_owned(),
-        Some(Place::AboveAll) => above.to_owned(),
-    };
     format!(
-        "| {} | {} | {} | {}{} | {:.1} | {} | {} | {} | {} | {} | {} | {} |\n",
+        "| {} | {} | {} | {}{} | {:.1} | {} | {} | {} | {} | {} |",
         pair.adaptive.key.scene,
         pair.adaptive.key.filter_and_share(),
         pair.fixed.sizes_words(),
@@ -66,8 +76,21 @@ fn ratios(pair: &Pair<'_>, record: &BenchRecord) -> String {
         two_digits(pair.error_ratio()),
         two_digits(pair.light_error_ratio()),
         two_digits(pair.frame_rate_ratio()),
-        place(trade.as_ref().map(|trade| trade.error_at_equal_time), "faster than all", "slower than all"),
-        place(trade.as_ref().map(|trade| trade.time_at_equal_error), "finer than all", "coarser than all"),
+    )
+}
+
+/// The last cells of a row of ratios.
+fn places(trade: Option<&Trade>) -> String {
+    let place = |place: Option<Place>, below: &str, above: &str| match place {
+        None => "-".to_owned(),
+        Some(Place::Ratio(ratio)) => format!("{ratio:.2}"),
+        Some(Place::BelowAll) => below.to_owned(),
+        Some(Place::AboveAll) => above.to_owned(),
+    };
+    format!(
+        " {} | {} |",
+        place(trade.map(|trade| trade.error_at_equal_time), "faster than all", "slower than all"),
+        place(trade.map(|trade| trade.time_at_equal_error), "finer than all", "coarser than all"),
     )
 }
 
@@ -128,5 +151,15 @@ mod tests {
             assert!(cells.iter().all(|count| count == &cells[0]), "{page}");
         }
         assert_eq!((tables[0].len(), tables[1].len()), (3, 6));
+    }
+
+    #[test]
+    fn one_fixed_size_is_no_curve_and_has_no_columns_for_it() {
+        let page = |sizes: &[&str]| {
+            let rows = sizes.iter().map(|size| examples::row("yard", "pcf", size, 9.0, 0.1));
+            markdown(&examples::record(rows.collect()))
+        };
+        assert!(page(&["512", "2048", "adaptive"]).contains("time for equal error"));
+        assert!(!page(&["2048", "adaptive"]).contains("equal error"));
     }
 }

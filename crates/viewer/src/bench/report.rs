@@ -68,7 +68,7 @@ pub fn report(record: &BenchRecord, out: &Path) -> Result<String> {
         "What the screen asks for",
         "For every pixel of the penumbra the largest texel that its filter hides, or that a pixel covers, as a length where the \
          light measures it (for a lamp its near plane); lines are the texels \
-         of the maps. Pixels left of a line see texels of that map.",
+         of the maps. Pixels left of a line see texels of that map, unless it is at its cap and pcss widens their filters.",
         &demands::demands(&record.demand, &pairs)?,
     );
     if !record.walks.is_empty() {
@@ -129,7 +129,7 @@ fn legend(names: &[String]) -> String {
 
 fn numbers(rows: &[Row]) -> String {
     let mut html = String::from(
-        "<div class=wide><table><thead><tr><th>Scene<th>Filter<th>Size<th>Texels<th>Depth, ms<th>Moments, ms<th>Demand, ms\
+        "<div class=wide><table><thead><tr><th>Scene<th>Filter<th>Size<th>Maps<th>Texels<th>Depth, ms<th>Moments, ms<th>Demand, ms\
          <th>Evaluation, ms<th>Total, ms<th>RMS, penumbra<th>99 %<th>Largest<th>Bias<th>RMS, lit sides<th>RMS, light<th>Tilted edges<th>Violation</thead><tbody>",
     );
     for row in rows {
@@ -140,12 +140,19 @@ fn numbers(rows: &[Row]) -> String {
             None => "-".into(),
         };
         let penumbra = &row.comparison.penumbra;
+        let of_filter = match row.error() {
+            Some(rms) => {
+                format!("<td>{rms:.4}<td>{:.3}<td>{:.2}<td>{:+.4}", penumbra.p99, penumbra.max, penumbra.bias)
+            }
+            None => "<td>-".repeat(4),
+        };
         let class = if row.key.is_adaptive() { "adaptive" } else { "" };
         html += &format!(
-            "<tr class='{class}'><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{:.4}<td>{:.3}<td>{:.2}<td>{:+.4}<td>{:.4}\
+            "<tr class='{class}'><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}{of_filter}<td>{:.4}\
              <td>{}<td>{}<td>{}",
             escaped(&row.key.scene),
             row.key.filter(),
+            row.key.size,
             row.sizes_words(),
             row.texels,
             time("depth"),
@@ -153,10 +160,6 @@ fn numbers(rows: &[Row]) -> String {
             time("demand"),
             time("evaluation"),
             time("total"),
-            penumbra.rms,
-            penumbra.p99,
-            penumbra.max,
-            penumbra.bias,
             row.comparison.lit_facing.rms,
             row.light_error().map_or("-".into(), |error| format!("{error:.4}")),
             percent(row.comparison.edges.map(|edges| edges.tilt_visible_share)),

@@ -67,11 +67,19 @@ impl Key {
         matches!(self.size(), Some(Size::Adaptive(_)))
     }
 
-    /// The filter, and the share of the penumbra that may show texels where it is one: `pcss`, `pcss x4 @0.01`.
+    /// The share of the penumbra that may show texels, where the size is chosen by one.
+    pub fn share(&self) -> Option<f64> {
+        match self.size()? {
+            Size::Adaptive(Statistic::Quantile(share)) => Some(share),
+            _ => None,
+        }
+    }
+
+    /// The filter, and the share where there is one: `pcss`, `pcss x4 @0.01`.
     pub fn filter_and_share(&self) -> String {
-        match self.size() {
-            Some(Size::Adaptive(Statistic::Quantile(share))) => format!("{} @{share}", self.filter()),
-            _ => self.filter(),
+        match self.share() {
+            Some(share) => format!("{} @{share}", self.filter()),
+            None => self.filter(),
         }
     }
 
@@ -234,7 +242,7 @@ impl fmt::Display for Row {
     /// One line for a terminal.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Key { scene, size, .. } = &self.key;
-        write!(formatter, "{scene:<12} {:<8} {size:<10} {:>9} texels", self.key.filter(), self.texels)?;
+        write!(formatter, "{scene:<12} {:<8} {size:<14} {:>9} texels", self.key.filter(), self.texels)?;
         if let Some(total) = self.total_ms() {
             write!(formatter, "  {total:>7.1} ms")?;
         }
@@ -245,6 +253,6 @@ impl fmt::Display for Row {
         if let Some(error) = self.light_error() {
             write!(formatter, "  light {error:.4}")?;
         }
-        formatter.write_str(if self.is_capped() { "  capped" } else { "" })
+        formatter.write_str(if self.key.is_adaptive() && self.is_capped() { "  capped" } else { "" })
     }
 }

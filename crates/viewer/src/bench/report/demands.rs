@@ -45,6 +45,8 @@ fn draw_panel(panel: &Area<'_>, histogram: &DemandHistogram, rows: &[(&Row, RGBC
         .x_label_area_size(44)
         .y_label_area_size(56)
         .build_cartesian_2d(across.clone().log_scale().with_key_points(log_ticks(&across)), 0.0..1.25 * most)?;
+    // The room above is for the labels of the lines; there is no share in it.
+    let percent = |share: &f64| if *share <= 100.0 { short(*share) } else { String::new() };
     chart
         .configure_mesh()
         .disable_x_mesh()
@@ -54,7 +56,7 @@ fn draw_panel(panel: &Area<'_>, histogram: &DemandHistogram, rows: &[(&Row, RGBC
         .x_desc("largest texel that hides, mm")
         .y_desc("% of the penumbra")
         .x_label_formatter(&|x| short(*x))
-        .y_label_formatter(&|y| short(*y))
+        .y_label_formatter(&percent)
         .label_style(text(13, INK))
         .axis_desc_style(text(14, INK))
         .draw()?;

@@ -80,11 +80,15 @@ pub fn log_range(values: impl Iterator<Item = f64>, share: f64) -> std::ops::Ran
     middle / reach..middle * reach
 }
 
-/// Round numbers on a logarithmic axis: 1, 2, 5 and their decades.
+/// Round numbers on a logarithmic axis: 1, 2, 5 and their decades; on an axis that is too short for three of them, more.
 pub fn log_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
-    let decades = range.start.log10().floor() as i32..=range.end.log10().ceil() as i32;
-    let ticks = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|digit| digit * 10_f64.powi(decade)));
-    ticks.filter(|tick| range.contains(tick)).collect()
+    let ticks = |digits: &[f64]| -> Vec<f64> {
+        let decades = range.start.log10().floor() as i32..=range.end.log10().ceil() as i32;
+        let all = decades.flat_map(|decade| digits.iter().map(move |digit| digit * 10_f64.powi(decade)));
+        all.filter(|tick| range.contains(tick)).collect()
+    };
+    let few = ticks(&[1.0, 2.0, 5.0]);
+    if few.len() < 3 { ticks(&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0]) } else { few }
 }
 
 /// A number without needless digits: `0.05`, `2`, `1500`.
@@ -110,6 +114,7 @@ mod tests {
     #[test]
     fn ticks_are_round_and_inside() {
         assert_eq!(log_ticks(&(0.9..6.0)), [1.0, 2.0, 5.0]);
+        assert_eq!(log_ticks(&(1.2..4.5)), [1.5, 2.0, 3.0, 4.0]);
     }
 
     #[test]

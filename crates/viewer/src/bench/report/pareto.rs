@@ -1,5 +1,5 @@
 //! The trade in one look: time against error, one panel a scene. The fixed sizes of a filter are joined, the adaptive one is
-//! a diamond with its quartiles; squares are fixed sizes that skip filters as adaptive ones do; a dashed line is the time of
+//! a diamond with its quartiles, and with its share where texels may show; squares are fixed sizes that skip filters as adaptive ones do; a dashed line is the time of
 //! the hard shadow. Left and below is better.
 
 use anyhow::Result;
@@ -87,18 +87,21 @@ fn draw_panel(
                 + Circle::new((0, 0), 3, hue.filled())
                 + Text::new(row.key.size.clone(), (6, -14), text(12, GREY))])?;
         }
-        for row in of_filter.iter().filter(|row| matches!(row.key.size(), Some(Size::Blocks(_)))) {
-            let Some(at) = place(row) else { continue };
+        for row in &of_filter {
+            let (Some(at), Some(Size::Blocks(sides))) = (place(row), row.key.size()) else { continue };
             chart.draw_series([EmptyElement::at(at)
                 + Rectangle::new([(-4, -4), (4, 4)], hue.stroke_width(2))
-                + Text::new(row.key.size.clone(), (8, 2), text(12, GREY))])?;
+                + Text::new(Size::Fixed(sides).to_string(), (8, 2), text(12, GREY))])?;
         }
         for row in of_filter.into_iter().filter(|row| row.key.is_adaptive()) {
             let (Some(at), Some(spread)) = (place(row), row.times_ms.get("total")) else { continue };
             let whisker = [(spread.lower_quartile, at.1), (spread.upper_quartile, at.1)];
             chart.draw_series([PathElement::new(whisker, hue.stroke_width(2))])?;
             let diamond = [(-8, 0), (0, -8), (8, 0), (0, 8)];
-            chart.draw_series([EmptyElement::at(at) + Polygon::new(diamond, hue.filled())])?;
+            let share = row.key.share().map_or_else(String::new, |share| format!("@{share}"));
+            chart.draw_series([EmptyElement::at(at)
+                + Polygon::new(diamond, hue.filled())
+                + Text::new(share, (5, -20), text(12, hue))])?;
         }
     }
     Ok(())

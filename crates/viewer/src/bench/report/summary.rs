@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::bench::reference::Pair;
+use crate::bench::report::figure::short;
 use crate::bench::row::Row;
 use crate::bench::trade::{Place, Trade, Verdict};
 
@@ -39,24 +40,33 @@ pub fn summary(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
             failing.join(", ")
         ),
     };
+    // Where no fixed size compares, its absence says nothing.
+    html += &match verdict(Verdict::Elsewhere).count() {
+        0 => String::new(),
+        count => format!(
+            " In <b>{count}</b> the run cannot tell: the adaptive map is faster and coarser than every fixed one, or slower \
+             and finer. More <code>--sizes</code> would."
+        ),
+    };
     html += "</p></div></div>";
     html + &table(rows, pairs, trades)
 }
 
 fn table(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
     let mut html = String::from(
-        "<table class=ratios><thead><tr><th>Scene<th>Filter<th>Fixed<th>Adaptive<th>Texels,<br>times fewer\
-         <th>Time<th>of it,<br>size<th>Error<th>Error,<br>light<th>Frame rate<th>Error in<br>equal time<th>Time for<br>equal error<th>Verdict</thead><tbody>",
+        "<div class=wide><table class=ratios><thead><tr><th>Scene<th>Filter<th>Fixed<th>Adaptive<th>Texels,<br>times fewer\
+         <th>Time<th>of it,<br>size<th>Error<th>Error,<br>light<th>Frame<br>rate<th>Error in<br>equal time<th>Time for<br>equal error<th>Verdict</thead><tbody>",
     );
     for pair in pairs {
         let trade = trades.iter().find(|trade| trade.key == pair.adaptive.key);
         let _ = write!(
             html,
-            "<tr><td>{}<td>{}<td>{}<td>{}<td>{:.1}<td>{}<td>{}<td>{}<td>{}<td>{}{}",
+            "<tr><td>{}<td>{}<td>{}<td>{}{}<td>{:.1}<td>{}<td>{}<td>{}<td>{}<td>{}{}",
             pair.adaptive.key.scene,
             pair.adaptive.key.filter_and_share(),
             pair.fixed.sizes_words(),
             pair.adaptive.sizes_words(),
+            if pair.adaptive.is_capped() { " (cap)" } else { "" },
             pair.fewer_texels(),
             times(pair.time_ratio()),
             times(pair.time_ratio_of_size(rows)),
@@ -66,11 +76,17 @@ fn table(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
             trade.map_or_else(|| "<td>-<td>-<td>-".to_owned(), cells),
         );
     }
-    html + "</tbody></table>\
-            <p class=note><b>Time</b>, <b>Error</b> (RMS over the penumbra against the same filter without texels, and against the light itself) and <b>Frame rate</b> (with receivers and shading) \
-            are adaptive over fixed. An adaptive map also skips filters where its demand pass found light or dark: <b>of it, size</b> is \
-            the time over that of a fixed map that skips them too. <b>Error in equal time</b> and <b>Time for equal error</b> are adaptive over the curve of \
-            all fixed sizes, where it reaches: below 1 no fixed size does as well. A frame rate above 1 is faster.</p>"
+    let share = pairs.iter().find_map(|pair| pair.adaptive.key.share()).map_or_else(String::new, |share| {
+        format!(" <b>@{share}</b> lets the narrowest {} % of the penumbra's pixels show texels.", short(100.0 * share))
+    });
+    html + "</tbody></table></div>\
+            <p class=note><b>Time</b>, <b>Error</b> (RMS over the penumbra against the same filter without texels, and against \
+            the light itself) and <b>Frame rate</b> (with receivers and shading; above 1 is faster) are adaptive over fixed. An \
+            adaptive map also skips filters where its demand pass found light or dark: <b>of it, size</b> is the time over that \
+            of a fixed map that skips them too. <b>Error in equal time</b> and <b>Time for equal error</b> are adaptive over the \
+            curve of all fixed sizes, where it reaches: below 1 no fixed size does as well."
+        + &share
+        + "</p>"
 }
 
 fn cells(trade: &Trade) -> String {
@@ -83,7 +99,7 @@ fn cells(trade: &Trade) -> String {
         Verdict::Pays => "<td class=pays>pays",
         Verdict::Even => "<td class=even>even",
         Verdict::DoesNotPay => "<td class=loses>does not pay",
-        Verdict::Elsewhere => "<td class=even>a corner of its own",
+        Verdict::Elsewhere => "<td class=even>incomparable",
     };
     place(trade.error_at_equal_time, "faster than all", "slower than all")
         + &place(trade.time_at_equal_error, "finer than all", "coarser than all")
@@ -133,5 +149,15 @@ mod tests {
         let html = summary(&rows, &pairs(&rows), &trades(&rows));
         assert!(html.contains("In <b>1</b> of 2 cases") && html.contains("less time: yard pcf."), "{html}");
         assert!(html.contains("pays") && html.contains("takes <b>0.30 to 0.75</b> of its time"), "{html}");
+        assert!(!html.contains("cannot tell"), "{html}");
+    }
+
+    #[test]
+    fn where_no_fixed_size_compares_the_page_says_that_it_cannot_tell() {
+        let fixed = [row("yard", "pcf", "1024", 10.0, 0.1), row("yard", "pcf", "2048", 40.0, 0.05)];
+        let rows = [fixed.as_slice(), &[row("yard", "pcf", "adaptive@0.05", 5.0, 0.2)]].concat();
+        let html = summary(&rows, &pairs(&rows), &trades(&rows));
+        assert!(html.contains("In none of 1 cases") && html.contains("In <b>1</b> the run cannot tell"), "{html}");
+        assert!(html.contains("<b>@0.05</b> lets the narrowest 5 % of the penumbra"), "{html}");
     }
 }
