@@ -30,6 +30,10 @@
 //! # Ok(()) }
 //! ```
 //!
+//! It takes the types of wgpu 30. `measure` and VSM need compute shaders. A prepass has depths from 0 (near) to 1, as
+//! [`Camera::clip_from_world`] makes them; a renderer whose depths are reversed uses [`FragmentDemand`], or measures nothing:
+//! then bounds and the filter's radius give the sizes, and PCSS, which has no radius, takes the cap's.
+//!
 //! The caller keeps device, queue, encoder, scene and camera. This crate never submits, never waits, and allocates at
 //! creation, at the first `measure`, and when the prepass changes its size. A directional light has one map or a cascade of
 //! them ([`Options::cascades`]), a spot has one, a point light up to six: faces of 90 degrees and what its filter reaches
