@@ -14,7 +14,7 @@ const SQUARE: u32 = 16;
 
 /// A card of 2 m by 2 m that lies 0.6 m over a ground of 4 m, a board of chess with every other square cut out.
 fn card(folder: &Path, alpha_mode: &str) -> PathBuf {
-    let board = |x: u32, y: u32| if (x / SQUARE + y / SQUARE) % 2 == 0 { 255 } else { 0 };
+    let board = |x: u32, y: u32| if (x / SQUARE + y / SQUARE).is_multiple_of(2) { 255 } else { 0 };
     let texture = RgbaImage::from_fn(TEXELS, TEXELS, |x, y| Rgba([230, 220, 200, board(x, y)]));
     texture.save(folder.join("card.png")).unwrap();
     let quad = |half: f32, y: f32| [[-half, y, -half], [-half, y, half], [half, y, half], [half, y, -half]];
