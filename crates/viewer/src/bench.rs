@@ -151,7 +151,7 @@ fn open_scenes(options: &Bench, conditions: &Conditions) -> Result<Vec<Setup>> {
         [] => available(&assets(conditions.assets.as_deref())),
         named => named.to_vec(),
     };
-    let setups = scenes.iter().map(|scene| Setup::open(scene, conditions)).collect::<Result<Vec<_>>>()?;
+    let setups = scenes.iter().map(|scene| Setup::open(scene, None, conditions)).collect::<Result<Vec<_>>>()?;
     for (index, setup) in setups.iter().enumerate() {
         let name = &setup.scene.name;
         let is_new = setups[..index].iter().all(|other| other.scene.name != *name);

@@ -183,9 +183,19 @@ pub struct View {
     /// A name of the catalogue or a .gltf, .glb or .obj file
     #[arg(long, value_name = "S")]
     pub scene: String,
+    /// Another kind of light in the place of the scene's [default: the scene's]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub light: Option<LightKind>,
     /// Light, softness, relation and picture size
     #[command(flatten)]
     pub conditions: Conditions,
+}
+
+/// What a scene's lamp is changed to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LightKind {
+    /// A bulb as large as the lamp that shines to all sides; for scenes with a lamp
+    Point,
 }
 
 /// What shot, bench and truth share.

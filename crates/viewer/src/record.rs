@@ -68,14 +68,14 @@ impl MapRecord {
 
     /// A map in a texture of `cap` texels a side, and what was counted of it.
     pub fn of(view: &View, cap: u32, blocks: Option<BlockCounts>) -> Self {
-        let [width, height] = view.size_texels;
+        let ([x, y], [width, height]) = (view.origin_texels, view.size_texels);
         Self {
             light: view.light,
             slice: view.slice,
             depth_end_world: Some(view.depth_end).filter(|end| end.is_finite()),
             net: view.is_net,
             size: [cap, cap],
-            viewport: [0, 0, width, height],
+            viewport: [x, y, width, height],
             extent_world: view.fit.extent_world.to_array(),
             c_effective: view.size.c_effective,
             radius_min_world: view.size.radius_min_world,

@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
-use scumble_core::{Filter, Fit, Light, Relation, Splits, slices_of};
+use anyhow::{Context, Result, bail, ensure};
+use scumble_core::{Face, Filter, Fit, Light, Relation, Splits, fit_face, slices_of};
 use scumble_scenes::Scene;
 
-use crate::cli::{Conditions, Method};
+use crate::cli::{Conditions, LightKind, Method};
 
 /// A sun wider than this is no disc in the sky any more: tan grows without bound towards 90 degrees.
 const HALF_ANGLE_MAX_DEG: f64 = 45.0;
@@ -29,9 +29,12 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// Opens the scene and applies the conditions.
-    pub fn open(scene: &str, conditions: &Conditions) -> Result<Self> {
+    /// Opens the scene, with another `light` if one is given, and applies the conditions.
+    pub fn open(scene: &str, light: Option<LightKind>, conditions: &Conditions) -> Result<Self> {
         let mut scene = scumble_scenes::open(scene, &assets(conditions.assets.as_deref()))?;
+        if let Some(LightKind::Point) = light {
+            scene.light = bulb(&scene)?;
+        }
         scene.camera.aspect = f64::from(conditions.width) / f64::from(conditions.height);
         if let Some(size) = conditions.light_size {
             set_light_size(&mut scene.light, size)?;
@@ -60,7 +63,8 @@ impl Setup {
         }
     }
 
-    /// What a light of this softness sees of what the camera sees; `None` where that is nothing.
+    /// What a light of this softness sees of what the camera sees; `None` where that is nothing. Not of a point light, which has
+    /// six faces.
     pub fn fit(&self, softness: f64) -> Result<Option<Fit>> {
         let scene = &self.scene;
         let fitted = scumble_core::fit(&scene.camera, &scene.bounds(), &self.light(softness)?, true);
@@ -91,15 +95,31 @@ impl Setup {
 }
 
 /// The radius at the light's reference plane that is `radius_world` at what the camera looks at. Users think of the
-/// shadow they see; a spot's reference plane is its near plane, where the same kernel is smaller by the ratio of the
+/// shadow they see; a lamp's reference plane is its near plane, where the same kernel is smaller by the ratio of the
 /// depths.
 fn pcf_radius_plane(scene: &Scene, radius_world: f64) -> Result<f64> {
-    let fit = scumble_core::fit(&scene.camera, &scene.bounds(), &scene.light, true)
-        .with_context(|| format!("the scene {}", scene.name))?;
-    Ok(fit.map_or(radius_world, |fit| {
-        let (_, depth) = fit.uv_from_world(scene.camera.target);
+    let (camera, bounds, light) = (&scene.camera, scene.bounds(), &scene.light);
+    let fit = match *light {
+        Light::Point { position, .. } => fit_face(camera, &bounds, light, Face::of(camera.target - position), true),
+        Light::Directional { .. } | Light::Spot { .. } => scumble_core::fit(camera, &bounds, light, true),
+    };
+    Ok(fit.with_context(|| format!("the scene {}", scene.name))?.map_or(radius_world, |fit| {
+        let (_, depth) = fit.uv_from_world(camera.target);
         radius_world * fit.reference_from_depth(depth.max(fit.reference_depth()))
     }))
+}
+
+/// A point light in the place of a scene's lamp, with its radius.
+fn bulb(scene: &Scene) -> Result<Light> {
+    match scene.light {
+        Light::Spot { position, radius_world, .. } | Light::Point { position, radius_world, .. } => {
+            Ok(Light::Point { position, radius_world, reach_world: f64::INFINITY })
+        }
+        Light::Directional { .. } => bail!(
+            "--light point: the light of {} is a sun; scenes with a lamp are possible, such as room and stairwell",
+            scene.name
+        ),
+    }
 }
 
 fn set_light_size(light: &mut Light, size: f64) -> Result<()> {

@@ -54,7 +54,7 @@ struct DemandRecord {
 pub fn run(options: &Shot) -> Result<()> {
     let conditions = &options.view.conditions;
     let (picture_path, record_path) = claim_with_record(&options.out, SCHEMA)?;
-    let setup = Setup::open(&options.view.scene, conditions)?;
+    let setup = Setup::open(&options.view.scene, options.view.light, conditions)?;
     let stage = Stage::new(Gpu::open()?, setup)?;
 
     let size_px = [conditions.width, conditions.height];

@@ -37,13 +37,16 @@ pub fn run(options: &Truth) -> Result<()> {
     let error_path = samples.of_light().map(|_| claim(&options.out.with_extension("se.npy"), Kind::Npy)).transpose()?;
     let store = Store::new(options.cache.as_deref())?;
 
-    let setup = Setup::open(&options.view.scene, conditions)?;
+    let setup = Setup::open(&options.view.scene, options.view.light, conditions)?;
     let stage = Stage::new(Gpu::open()?, setup)?;
     let pixels = stage.receivers([conditions.width, conditions.height], 1)?;
     let surfaces = pixels.read_surfaces(&stage.gpu)?;
     let rays = Rays::new(&stage.setup.scene);
     rays.skipped().iter().for_each(|skipped| eprintln!("warning: {skipped}"));
-    let fit = stage.setup.fit(1.0)?;
+    let fit = match samples {
+        Samples::Kernel(_) => stage.setup.fit(1.0)?,
+        Samples::Light(_) => None,
+    };
     let filter = stage.setup.filter(options.method, 1.0);
     let source = Source::new(&rays, &stage.setup.scene.light, fit.as_ref(), filter, samples)?;
     let message = format!("truth of {}", stage.setup.scene.name);

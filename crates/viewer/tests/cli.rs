@@ -162,6 +162,22 @@ fn a_shot_writes_a_picture_and_a_record_whose_texels_are_those_of_its_viewports(
 }
 
 #[test]
+fn a_lamp_changed_to_a_bulb_has_a_map_for_each_face_that_is_seen_and_a_sun_is_none() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("bulb.png");
+    let options = ["--light", "point", "--width", "160", "--height", "90", "--out", path_text(&out)];
+    let shot = |scene| viewer(&[&["shot", "--scene", scene, "--size", "64", "--samples", "1"], &options[..]].concat());
+    let output = shot("stairwell");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let record: serde_json::Value = serde_json::from_slice(&fs::read(out.with_extension("json")).unwrap()).unwrap();
+    assert!(record["light"]["point"].is_object(), "{}", record["light"]);
+    let maps = record["maps"].as_array().unwrap();
+    assert!((2..=6).contains(&maps.len()) && record["texels"] == 64 * 64 * maps.len());
+    let line = one_line(&shot("yard"));
+    assert!(line.contains("--light point") && line.contains("sun") && line.contains("stairwell"), "{line}");
+}
+
+#[test]
 fn a_scene_in_other_units_is_the_same_picture() {
     let directory = tempfile::tempdir().unwrap();
     let picture = |scene: &str| {
