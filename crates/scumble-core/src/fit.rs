@@ -12,6 +12,7 @@
 //! the map, not in the hull of PSR and the light, because taps reach beyond PSR.
 
 mod frame;
+mod steps;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -5,7 +5,7 @@
 pub struct Counters {
     /// Textures, buffers and bind groups created.
     pub allocations: u64,
-    /// Bytes of the map texture, and of the textures of moments where there are any.
+    /// Bytes of the map texture, and of the textures of moments and of static casters where there are any.
     pub map_bytes: u64,
     /// Texels of all maps of the uploaded plan.
     pub texels: u64,
@@ -17,8 +17,10 @@ pub struct Counters {
     pub moment_blocks: u64,
     /// Moments made, three dispatches each.
     pub moment_passes: u64,
-    /// Depth passes begun.
+    /// Depth passes begun, those of static casters included.
     pub map_passes: u64,
+    /// Passes of static casters that were not needed, because the map still held them.
+    pub static_passes_skipped: u64,
     /// Maps of the lights of the uploaded plan that nothing on screen needs: no pass, no texels, all lit.
     pub maps_skipped: u32,
     /// Maps of the uploaded plan that rest at a small size, because nothing on screen is in their shadow.

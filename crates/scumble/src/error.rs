@@ -2,6 +2,7 @@
 
 use scumble_core::Statistic;
 
+use crate::options::Keep;
 use crate::uniforms::{LIGHTS_MAX, MAPS_MAX};
 
 /// Why a call of this crate was refused.
@@ -64,6 +65,15 @@ pub enum Error {
          filter, so none, pcf and pcss are possible"
     )]
     MomentsAllocated,
+    /// Static casters need layers that were not allocated.
+    #[error(
+        "the options ask for Keep::{found:?}; layers of static casters are allocated at creation, so shadows created with \
+         Keep::StaticLayers stay with it, and all others may have Keep::Nothing or Keep::Maps"
+    )]
+    LayersAllocated {
+        /// What was asked for.
+        found: Keep,
+    },
     /// The device cannot make moments.
     #[error(
         "vsm needs compute shaders that store to 1 texture a stage; this device allows {found} \

@@ -7,6 +7,7 @@
 //! 3. [`Shadows::upload`] tells the shaders.
 //! 4. [`Shadows::begin`] gives a depth-only pass for each view; the caller draws its casters. [`Shadows::prefilter`] then
 //!    makes the moments of a variance shadow map; with other filters it does nothing.
+//!    Casters that stand still need no pass while their map stays: [`Shadows::begin_static`], [`Keep`].
 //! 5. [`Shadows::measure`], optional, looks at a depth prepass and finds the radii on screen, of which the smallest
 //!    (Kreuzer 2017, Eq. 5.12) or a [`Statistic`] sizes the map, and where everything is lit or dark: there the shading needs one lookup and no filter.
 //!    Renderers without a prepass measure while they shade: [`FragmentDemand`].
@@ -46,6 +47,7 @@ mod counters;
 mod demand;
 mod error;
 mod fragments;
+mod kept;
 mod maps;
 mod measure;
 mod moments;
@@ -64,11 +66,11 @@ pub use counters::{BlockCounts, Counters};
 pub use error::Error;
 pub use fragments::{FragmentDemand, FragmentsStorage};
 pub use measure::NOTHING as MEASURE_NOTHING;
-pub use options::{Options, SizeChoice};
+pub use options::{Keep, Options, SizeChoice};
 pub use plan::filter_constant;
 pub use scumble_core::{self, Aabb, Camera, Face, Filter, Light, Settings, Splits, Statistic};
 pub use shaders::{
-    CLEAR_WGSL, FILTER_OVERRIDE, classify_wgsl, fragments_wgsl, measure_wgsl, shadow_wgsl, vsm_box_wgsl,
+    CLEAR_WGSL, COPY_WGSL, FILTER_OVERRIDE, classify_wgsl, fragments_wgsl, measure_wgsl, shadow_wgsl, vsm_box_wgsl,
     vsm_reduce_wgsl,
 };
 pub use shadows::Shadows;

@@ -82,8 +82,24 @@ impl Maps {
         encoder: &'encoder mut wgpu::CommandEncoder,
         view: &View,
     ) -> wgpu::RenderPass<'encoder> {
+        let is_whole_layer = view.size_texels.iter().all(|&side| side >= self.side);
+        let load = if is_whole_layer { wgpu::LoadOp::Clear(1.0) } else { wgpu::LoadOp::Load };
+        let mut pass = self.begin_loaded(encoder, view, load);
+        if !is_whole_layer {
+            pass.set_pipeline(&self.clear);
+            pass.draw(0..3, 0..1);
+        }
+        pass
+    }
+
+    /// Begins the same pass over what the layer holds, or with the whole layer cleared.
+    pub fn begin_loaded<'encoder>(
+        &self,
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        view: &View,
+        load: wgpu::LoadOp<f32>,
+    ) -> wgpu::RenderPass<'encoder> {
         let [width, height] = view.size_texels.map(|side| side.clamp(1, self.side));
-        let whole_layer = width == self.side && height == self.side;
         let [x, y] = [view.origin_texels[0].min(self.side - width), view.origin_texels[1].min(self.side - height)];
         let layer = (view.layer as usize).min(self.layers.len() - 1);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -91,10 +107,7 @@ impl Maps {
             color_attachments: &[],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.layers[layer],
-                depth_ops: Some(wgpu::Operations {
-                    load: if whole_layer { wgpu::LoadOp::Clear(1.0) } else { wgpu::LoadOp::Load },
-                    store: wgpu::StoreOp::Store,
-                }),
+                depth_ops: Some(wgpu::Operations { load, store: wgpu::StoreOp::Store }),
                 stencil_ops: None,
             }),
             timestamp_writes: None,
@@ -103,10 +116,6 @@ impl Maps {
         });
         pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
         pass.set_scissor_rect(x, y, width, height);
-        if !whole_layer {
-            pass.set_pipeline(&self.clear);
-            pass.draw(0..3, 0..1);
-        }
         pass
     }
 }

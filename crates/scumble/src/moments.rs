@@ -30,6 +30,8 @@ pub struct Moments {
     filtered: wgpu::TextureView,
     uniforms: wgpu::Buffer,
     maps: Vec<Map>,
+    /// By map: what its moments were made by, while the map is as it was.
+    made: Vec<Option<Task>>,
     reduce: wgpu::ComputePipeline,
     along: [wgpu::ComputePipeline; 2],
     bytes: u64,
@@ -187,7 +189,8 @@ impl Moments {
             })
             .collect();
         let bytes = TEXEL_BYTES * u64::from(maps.side()).pow(2) * u64::from(layer_count + 1);
-        Ok(Self { filtered, uniforms, maps: groups, reduce, along, bytes })
+        let made = vec![None; count as usize];
+        Ok(Self { filtered, uniforms, maps: groups, made, reduce, along, bytes })
     }
 
     /// Textures, buffers and bind groups created.
@@ -211,14 +214,33 @@ impl Moments {
         queue.write_buffer(&self.uniforms, offset, bytemuck::bytes_of(&task.uniform));
     }
 
-    /// Records the passes of these maps, one compute pass for all.
-    pub fn record(&self, encoder: &mut wgpu::CommandEncoder, tasks: &[Task]) {
+    /// Maps are drawn again; their moments are those of what they were.
+    pub fn forget(&mut self) {
+        self.made.fill(None);
+    }
+
+    /// One map is drawn again.
+    pub fn forget_map(&mut self, map: u32) {
+        if let Some(made) = self.made.get_mut(map as usize) {
+            *made = None;
+        }
+    }
+
+    /// Records the passes of those of these maps whose moments are not there yet, one compute pass for all; of how many.
+    pub fn record(&mut self, encoder: &mut wgpu::CommandEncoder, tasks: &[Task]) -> u64 {
+        let is_left = |task: &&Task| self.made.get(task.map as usize).copied().flatten() != Some(**task);
+        let left: Vec<Task> = tasks.iter().filter(is_left).copied().collect();
+        if left.is_empty() {
+            return 0;
+        }
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("scumble moments"),
             timestamp_writes: None,
         });
-        for task in tasks {
-            let map = &self.maps[(task.map as usize).min(self.maps.len() - 1)];
+        for task in &left {
+            let place = (task.map as usize).min(self.maps.len() - 1);
+            self.made[place] = Some(*task);
+            let map = &self.maps[place];
             let [across, down] = task.size().map(|side| side.div_ceil(GROUP_SIDE));
             let [along_x, along_y] = &self.along;
             let [rows, columns] = &map.along;
@@ -228,6 +250,7 @@ impl Moments {
                 pass.dispatch_workgroups(across, down, 1);
             }
         }
+        left.len() as u64
     }
 }
 

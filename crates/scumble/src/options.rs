@@ -17,7 +17,22 @@ pub enum SizeChoice {
     Fixed([u32; 2]),
 }
 
-/// Choices of one [`Shadows`](crate::Shadows). All but `maps` may change between frames.
+/// What of the casters is kept from frame to frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Keep {
+    /// Adaptive boxes follow the view by the texel, and so change in every frame in which the camera moves.
+    #[default]
+    Nothing,
+    /// Adaptive boxes are on steps of a 16th ([`Fit::on_steps`](scumble_core::Fit::on_steps)), so that maps stay while the
+    /// camera moves by less: a tenth more texels, or where the cap binds a texel of a rung more.
+    Maps,
+    /// The same, and static casters have layers of their own, allocated at creation, under those that move: twice the
+    /// memory.
+    StaticLayers,
+}
+
+/// Choices of one [`Shadows`](crate::Shadows). All but `maps` may change between frames, and between
+/// `keep` and [`Keep::StaticLayers`] only at creation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// How visibility is filtered, for every light.
@@ -35,8 +50,11 @@ pub struct Options {
     /// more follow the receivers that `measure` saw; the last of them is then a coarse net over the whole view, for what
     /// appears before the next result.
     pub cascades: Splits,
+    /// What of the casters is kept; see [`Shadows::begin_static`](crate::Shadows::begin_static).
+    pub keep: Keep,
     /// Origin of the world space that shaders and vertex buffers use, in world coordinates. Put it near the camera or
-    /// the scene where coordinates are large: what reaches the GPU is relative to it, in f32.
+    /// the scene where coordinates are large: what reaches the GPU is relative to it, in f32. With another origin
+    /// nothing that was kept is right any more.
     pub origin_world: DVec3,
     /// Every how many pixels, along x and along y, `measure` looks at one; and so the side of the blocks of pixels that
     /// one lookup may be enough for. On llvmpipe 4 costs a twelfth of 1.
@@ -51,6 +69,7 @@ impl Default for Options {
             fitted: true,
             maps: 1,
             cascades: Splits::default(),
+            keep: Keep::default(),
             origin_world: DVec3::ZERO,
             measure_stride: 4,
         }

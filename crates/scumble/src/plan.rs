@@ -15,7 +15,7 @@ use scumble_core::{
 use crate::demand::{Found, first_bin};
 use crate::error::Error;
 use crate::moments::blocks_of;
-use crate::options::{Options, SizeChoice};
+use crate::options::{Keep, Options, SizeChoice};
 use crate::share::{Asked, Granted, share};
 use crate::slices::{LightState, Slice, slices};
 use crate::uniforms::{CASCADES_MAX, LIGHTS_MAX, LightUniform, LightsUniform, MapUniform, NO_MAP};
@@ -110,8 +110,11 @@ impl Planner<'_> {
                 let map = first + slice.slice;
                 let is_adaptive = options.size == SizeChoice::Adaptive;
                 let is_resting = is_adaptive && !slice.is_net && states[map as usize].rest.is_resting(settings);
-                let texel_world = self.texel_world(&mut plan.policies[map as usize], map, &fit, &slice)?;
-                asked.push(Asked { map, fit, texel_world });
+                let is_on_steps = is_adaptive && options.keep != Keep::Nothing;
+                let mut asks = Asked { map, fit, texel_world: DVec2::ONE, is_on_steps };
+                asks.texel_world =
+                    self.texel_world(&mut plan.policies[map as usize], map, asks.extent_world(), &slice)?;
+                asked.push(asks);
                 drafts.push(Draft { light: index, slice, is_resting });
             }
             first += count;
@@ -128,16 +131,16 @@ impl Planner<'_> {
         Ok(plan)
     }
 
-    /// The texel that a map asks for. A net does not rest.
-    fn texel_world(&self, policy: &mut TexelPolicy, map: u32, fit: &Fit, slice: &Slice) -> Result<DVec2, Error> {
+    /// The texel that a map of this extent asks for. A net does not rest.
+    fn texel_world(&self, policy: &mut TexelPolicy, map: u32, extent: DVec2, slice: &Slice) -> Result<DVec2, Error> {
         if let SizeChoice::Fixed(_) = self.options.size {
             return Ok(DVec2::ONE);
         }
-        let texel_world = policy.next(fit.extent_world, slice.demand)?;
+        let texel_world = policy.next(extent, slice.demand)?;
         if slice.is_net {
             return Ok(texel_world);
         }
-        Ok(self.states[map as usize].rest.texel(texel_world, fit.extent_world, self.settings))
+        Ok(self.states[map as usize].rest.texel(texel_world, extent, self.settings))
     }
 
     /// A map with its size.

@@ -21,6 +21,9 @@ const VSM_BOX: &str = include_str!("../shader/vsm_box.wgsl");
 /// The pass that clears a viewport.
 pub const CLEAR_WGSL: &str = include_str!("../shader/clear.wgsl");
 
+/// The pass that puts static casters into a map.
+pub const COPY_WGSL: &str = include_str!("../shader/copy.wgsl");
+
 /// Parts of `shadow_visibility`, in the order in which they are joined.
 const PARTS: [&str; 8] = [BINDINGS, SLICES, ROTATION, RECEIVER, PCF, PCSS, VSM, VISIBILITY];
 

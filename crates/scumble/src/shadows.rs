@@ -6,10 +6,11 @@ use crate::bindings::Bindings;
 use crate::counters::{BlockCounts, Counters};
 use crate::demand::{Found, Reading, measure_scale};
 use crate::error::Error;
+use crate::kept::Kept;
 use crate::maps::{MAP_FORMAT, Maps, depth_state};
 use crate::measure::{Lights, Measure, Readings, Request};
 use crate::moments::{Moments, Task};
-use crate::options::Options;
+use crate::options::{Keep, Options};
 use crate::plan::{MapState, Planner};
 use crate::share::page_side;
 use crate::slices::LightState;
@@ -23,6 +24,7 @@ pub struct Shadows {
     settings: Settings,
     options: Options,
     maps: Maps,
+    kept: Kept,
     moments: Option<Moments>,
     bindings: Bindings,
     measure: Option<Measure>,
@@ -51,9 +53,10 @@ impl Shadows {
         Self::with_options(device, settings, Options::default())
     }
 
-    /// Allocates `options.maps` maps at the settings' cap, 4 bytes a texel, and with VSM their moments, 8 bytes a texel of
-    /// one map more: all the memory this will ever take. With [`Settings::budget_bytes`] it is one page in their place, of
-    /// that many bytes and as wide as the device allows at most, which the maps of a frame share as they need it.
+    /// Allocates `options.maps` maps at the settings' cap, 4 bytes a texel, with [`Keep::StaticLayers`] as much again, and
+    /// with VSM their moments, 8 bytes a texel of one map more: all the memory this will ever take. With
+    /// [`Settings::budget_bytes`] it is one page in their place, of that many bytes and as wide as the device allows at most,
+    /// which the maps of a frame share as they need it; layers of static casters are a page beside it.
     ///
     /// # Errors
     /// Settings or options out of range, a cap above the device's limit, VSM on a device without compute shaders, a budget
@@ -70,6 +73,7 @@ impl Shadows {
             Some(side) => Maps::new(device, side, 1),
             None => Maps::new(device, settings.cap, options.maps),
         };
+        let kept = Kept::new(device, &maps, options.maps, options.keep);
         let moments = match options.filter {
             Filter::Vsm { .. } => Some(Moments::new(device, &maps, options.maps)?),
             Filter::Hard | Filter::Pcf { .. } | Filter::Pcss => None,
@@ -77,8 +81,11 @@ impl Shadows {
         let bindings = Bindings::new(device, &maps, moments.as_ref());
         let state = MapState { policy: TexelPolicy::new(&settings)?, rest: Rest::default(), measured: None };
         let counters = Counters {
-            allocations: 1 + Bindings::ALLOCATIONS + moments.as_ref().map_or(1, Moments::allocations),
-            map_bytes: maps.bytes() + moments.as_ref().map_or(0, Moments::bytes),
+            allocations: 1
+                + Bindings::ALLOCATIONS
+                + moments.as_ref().map_or(1, Moments::allocations)
+                + kept.allocations(),
+            map_bytes: maps.bytes() + moments.as_ref().map_or(0, Moments::bytes) + kept.bytes(),
             ..Counters::default()
         };
         Ok(Self {
@@ -89,6 +96,7 @@ impl Shadows {
             settings,
             options,
             maps,
+            kept,
             moments,
             bindings,
             measure: None,
@@ -126,6 +134,9 @@ impl Shadows {
         }
         if self.moments.is_none() && matches!(options.filter, Filter::Vsm { .. }) {
             return Err(Error::MomentsAllocated);
+        }
+        if self.kept.is_apart() != (options.keep == Keep::StaticLayers) {
+            return Err(Error::LayersAllocated { found: options.keep });
         }
         if (options.filter, options.cascades) != (self.options.filter, self.options.cascades) {
             for state in &mut self.states {
@@ -188,25 +199,61 @@ impl Shadows {
         };
     }
 
-    /// Begins the depth-only pass of a view, with viewport and scissor set and that part of the map cleared. Draw the
-    /// casters with a pipeline of [`Shadows::depth_stencil_state`] and no colour targets.
+    /// Begins the depth-only pass of a view, with viewport and scissor set and that part of the map cleared, or with
+    /// [`Keep::StaticLayers`] filled with what [`Shadows::begin_static`] has drawn for this view. Draw the casters with a
+    /// pipeline of [`Shadows::depth_stencil_state`] and no colour targets.
     pub fn begin<'encoder>(
         &mut self,
         encoder: &'encoder mut wgpu::CommandEncoder,
         view: &View,
     ) -> wgpu::RenderPass<'encoder> {
+        self.drawn_again(view);
+        self.kept.begin(&self.maps, encoder, view, self.options.origin_world)
+    }
+
+    /// Begins the pass for casters that stand still, or `None` where those drawn for an equal view are still there.
+    ///
+    /// Where nothing moves, this takes the place of [`Shadows::begin`]. With [`Keep::StaticLayers`] call it first, for what
+    /// stands still, and `begin` then, for what moves; without, `begin` clears the map of both. The views of a camera that
+    /// moves are equal for a while with [`Options::keep`](crate::Options::keep) alone. What was drawn counts from the
+    /// recording on: after an encoder that was never submitted, and after casters changed, call [`Shadows::invalidate`].
+    pub fn begin_static<'encoder>(
+        &mut self,
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        view: &View,
+    ) -> Option<wgpu::RenderPass<'encoder>> {
+        if self.kept.holds(view, self.options.origin_world) {
+            self.counters.static_passes_skipped += 1;
+            return None;
+        }
+        self.drawn_again(view);
+        Some(self.kept.begin_static(&self.maps, encoder, view, self.options.origin_world))
+    }
+
+    fn drawn_again(&mut self, view: &View) {
         self.counters.map_passes += 1;
-        self.maps.begin(encoder, view)
+        if let Some(moments) = &mut self.moments {
+            match self.page_side {
+                // What lies on the page may have moved.
+                Some(_) => moments.forget(),
+                None => moments.forget_map(view.map),
+            }
+        }
+    }
+
+    /// Forgets what [`Shadows::begin_static`] has drawn: what stood still has changed.
+    pub fn invalidate(&mut self) {
+        self.kept.forget();
+        if let Some(moments) = &mut self.moments {
+            moments.forget();
+        }
     }
 
     /// Records what the filter makes of the maps uploaded last, after their casters are drawn and before anything is shaded
     /// or measured: the moments of VSM. Other filters read the maps as they are, and nothing is recorded for them.
     pub fn prefilter(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        if let Some(moments) = &self.moments
-            && !self.uploaded.moments.is_empty()
-        {
-            moments.record(encoder, &self.uploaded.moments);
-            self.counters.moment_passes += self.uploaded.moments.len() as u64;
+        if let Some(moments) = &mut self.moments {
+            self.counters.moment_passes += moments.record(encoder, &self.uploaded.moments);
         }
     }
 

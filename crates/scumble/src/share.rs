@@ -25,6 +25,16 @@ pub struct Asked {
     pub fit: Fit,
     /// The texel that it asks for, of the ladder; nothing under a fixed size.
     pub texel_world: DVec2,
+    /// Whether its box is on steps, so that it stays while the view creeps.
+    pub is_on_steps: bool,
+}
+
+impl Asked {
+    /// Extent of the box at the reference plane, in metres, with what steps may add to it.
+    pub fn extent_world(&self) -> DVec2 {
+        let room = if self.is_on_steps { Fit::STEPS_ROOM } else { 1.0 };
+        room * self.fit.extent_world
+    }
 }
 
 /// What a map gets.
@@ -78,7 +88,7 @@ pub fn share(
     let cap = settings.cap.min(side);
     let texels = |rungs: u32, growth: f64| -> Vec<DVec2> {
         let given =
-            |asked: &Asked| given_way(asked.texel_world, growth * asked.fit.extent_world, rungs, cap, settings.floor);
+            |asked: &Asked| given_way(asked.texel_world, growth * asked.extent_world(), rungs, cap, settings.floor);
         asked.iter().map(given).collect()
     };
     let rooms = |rungs: u32, growth: f64| -> Vec<[u32; 2]> {
@@ -86,7 +96,7 @@ pub fn share(
             SizeChoice::Fixed(texels) => vec![texels; asked.len()],
             SizeChoice::Adaptive => {
                 let room = |(texel, asked): (DVec2, &Asked)| {
-                    texels_at_most(growth * asked.fit.extent_world, texel, settings.floor)
+                    texels_at_most(growth * asked.extent_world(), texel, settings.floor)
                 };
                 texels(rungs, growth).into_iter().zip(asked).map(room).collect()
             }
@@ -108,6 +118,7 @@ fn granted(
     origin_texels: [u32; 2],
 ) -> Granted {
     let (fit, texels) = match size {
+        SizeChoice::Adaptive if asked.is_on_steps => asked.fit.on_steps(texel_world, settings.floor),
         SizeChoice::Adaptive => asked.fit.on_lattice(texel_world, settings.floor),
         SizeChoice::Fixed(texels) => (asked.fit.clone(), texels),
     };

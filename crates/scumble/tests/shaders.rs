@@ -44,8 +44,15 @@ fn filters() -> [(&'static str, f64); 5] {
 #[test]
 fn every_shader_is_valid_with_every_filter() {
     let measured = [with_use(0), fragments_wgsl(1)].join("\n");
-    for source in [with_use(0), with_use(3), measured, measure_wgsl(), scumble::CLEAR_WGSL.to_owned(), classify_wgsl()]
-    {
+    for source in [
+        with_use(0),
+        with_use(3),
+        measured,
+        measure_wgsl(),
+        scumble::CLEAR_WGSL.to_owned(),
+        scumble::COPY_WGSL.to_owned(),
+        classify_wgsl(),
+    ] {
         let (module, info) = validate(&source);
         for (name, value) in filters() {
             let constants = if module.overrides.is_empty() {

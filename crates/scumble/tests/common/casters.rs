@@ -71,6 +71,15 @@ impl Casters {
         shadows.prefilter(encoder);
     }
 
+    /// Draws the maps of a plan that do not hold these casters yet.
+    pub fn draw_static(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, shadows: &mut Shadows, plan: &Plan) {
+        for view in plan.views() {
+            if let Some(mut pass) = shadows.begin_static(encoder, view) {
+                self.draw(&mut pass, &self.map, &self.matrix(gpu, view.clip_from_world));
+            }
+        }
+    }
+
     /// Draws the depth prepass into a fresh texture.
     pub fn draw_prepass(
         &self,
