@@ -22,7 +22,7 @@ use glam::{DVec2, DVec3};
 
 use crate::aabb::Aabb;
 use crate::camera::Camera;
-use crate::cascade::{Cascade, OVERLAP, depths_of, slices_of};
+use crate::cascade::{Cascade, OVERLAP, depths_of};
 use crate::error::Error;
 use crate::fit::{Fit, Frame, fit, fit_bodies};
 use crate::light::Light;
@@ -145,8 +145,8 @@ pub struct SeenCascades {
 }
 
 /// The slices of a light, each fitted to what a picture showed of its receivers: the view is cut between the nearest and the
-/// farthest of them, or from `last`, the depths of the last frame, on the way there. A receiver that was seen, has not moved and is on screen is in the map of its slice; every other one
-/// on screen is in the net.
+/// farthest of them, or on the way there from `last`, the depths of the last frame. A receiver that was seen, has not moved and
+/// is on screen is in the map of its slice; every other one on screen is in the net.
 ///
 /// `None` where [`cascades`](crate::cascades) serves better: a light that is not split, a view of nothing, a picture that
 /// showed no receiver, and a view that has moved by half of the picture's height since.
@@ -162,7 +162,8 @@ pub fn seen_cascades(
     last: Option<[f64; 2]>,
 ) -> Result<Option<SeenCascades>, Error> {
     let (camera, scene, light, splits) = (camera.checked()?, scene.checked()?, light.checked()?, splits.checked()?);
-    if slices_of(&light, true, &splits) < 2 || slices_of(&seen.light, true, &splits) < 2 {
+    let is_sun = |light: &Light| matches!(light, Light::Directional { .. });
+    if !is_sun(&light) || !is_sun(&seen.light) || splits.count < 2 {
         return Ok(None);
     }
     let Some(net) = fit(&camera, &scene, &light, true)? else { return Ok(None) };

@@ -169,6 +169,8 @@ fn a_cut_and_pictures_without_a_receiver_leave_the_bounds() {
     assert_eq!(maps(&camera, &sun(), &Splits::default(), &seen_here), None);
     assert_eq!(maps(&camera, &lamp(), &four(), &seen_here), None);
     assert_eq!(maps(&camera, &sun(), &four(), &Seen { light: lamp(), ..seen_here.clone() }), None);
+    let bulb = Light::Point { position: DVec3::new(0.0, 5.0, 0.0), radius_world: 0.1, reach_world: 30.0 };
+    assert_eq!(maps(&camera, &bulb, &four(), &seen_here), None);
     let nan = Seen { camera: Camera { near: f64::NAN, ..camera }, ..seen_here };
     assert!(seen_cascades(&camera, &town(), &sun(), &four(), &nan, None).is_err());
 }
