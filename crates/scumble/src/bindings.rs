@@ -3,9 +3,9 @@
 use scumble_core::Taps;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
-use crate::blocks::{blocks_texture, sampled_binding};
+use crate::blocks::{no_blocks, sampled_binding};
 use crate::maps::Maps;
-use crate::moments::{self, Moments, moments_texture};
+use crate::moments::{self, Moments, no_moments};
 use crate::uniforms::{LightsUniform, TapsUniform};
 
 /// Uniform buffers, sampler, layout and group.
@@ -47,10 +47,10 @@ impl Bindings {
             ..Default::default()
         });
         let layout = layout(device);
-        let no_blocks = blocks_texture(device, [1, 1]);
+        let no_blocks = no_blocks(device);
         let moments = match moments {
             Some(moments) => moments.filtered().clone(),
-            None => moments_texture(device, 1, 1).1,
+            None => no_moments(device),
         };
         let group = group(device, &layout, &lights, &taps, maps, &sampler, &no_blocks, &moments);
         Self { lights, taps, sampler, layout, group, moments }

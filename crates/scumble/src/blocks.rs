@@ -35,7 +35,16 @@ pub fn corners_of(size_px: [u32; 2], stride: u32) -> [u32; 2] {
 }
 
 /// A texture for what is known of blocks, of a layer a light.
-pub fn blocks_texture(device: &wgpu::Device, [width, height]: [u32; 2]) -> wgpu::TextureView {
+fn blocks_texture(device: &wgpu::Device, size: [u32; 2]) -> wgpu::TextureView {
+    texture(device, size, wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING)
+}
+
+/// What stands for blocks before the first are known: no device writes to it.
+pub fn no_blocks(device: &wgpu::Device) -> wgpu::TextureView {
+    texture(device, [1, 1], wgpu::TextureUsages::TEXTURE_BINDING)
+}
+
+fn texture(device: &wgpu::Device, [width, height]: [u32; 2], usage: wgpu::TextureUsages) -> wgpu::TextureView {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("scumble blocks"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: LIGHTS_MAX },
@@ -43,7 +52,7 @@ pub fn blocks_texture(device: &wgpu::Device, [width, height]: [u32; 2]) -> wgpu:
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: FORMAT,
-        usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
+        usage,
         view_formats: &[],
     });
     texture.create_view(&wgpu::TextureViewDescriptor {

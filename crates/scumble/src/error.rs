@@ -115,12 +115,16 @@ pub enum Error {
     #[error("the measuring stride is 0; it is 1 (every pixel) or more")]
     Stride,
     /// The device lacks compute shaders or the storage the demand pass needs.
-    #[error("measuring needs compute shaders with {needed} storage buffer a stage; this device has {found}")]
+    #[error(
+        "measuring needs compute shaders with 1 storage buffer and 1 storage texture a stage; this device has {buffers} and \
+         {textures} (`Limits::max_storage_buffers_per_shader_stage`, `max_storage_textures_per_shader_stage`); without \
+         measuring, sizes come from bounds"
+    )]
     NoCompute {
-        /// Storage buffers needed.
-        needed: u32,
-        /// Storage buffers a stage of the device.
-        found: u32,
+        /// Storage buffers a stage, 0 without compute shaders.
+        buffers: u32,
+        /// Storage textures a stage, 0 without compute shaders.
+        textures: u32,
     },
     /// A histogram is not made by fragment shaders.
     #[error("{0:?} cannot be measured in fragment shaders, only Statistic::Minimum; `Shadows::measure` has both")]

@@ -20,9 +20,6 @@ pub const NOTHING: u32 = 0x7F80_0000;
 /// Side of a work group in measured pixels; the shader's `@workgroup_size`.
 const GROUP_SIDE: u32 = 8;
 
-/// Storage buffers a stage that the pass binds.
-const STORAGE_BUFFERS: u32 = 1;
-
 /// Pipeline, buffers and ring of the demand pass.
 #[derive(Debug)]
 pub struct Measure {
@@ -88,9 +85,12 @@ pub struct Recorded {
 impl Measure {
     /// Creates everything that the pass needs; `shadow_layout` is bind group 0.
     pub fn new(device: &wgpu::Device, shadow_layout: &wgpu::BindGroupLayout) -> Result<Self, Error> {
-        let found = device.limits().max_storage_buffers_per_shader_stage;
-        if found < STORAGE_BUFFERS || device.limits().max_compute_workgroups_per_dimension == 0 {
-            return Err(Error::NoCompute { needed: STORAGE_BUFFERS, found });
+        let limits = device.limits();
+        let of_compute = |found| if limits.max_compute_workgroups_per_dimension > 0 { found } else { 0 };
+        let buffers = of_compute(limits.max_storage_buffers_per_shader_stage);
+        let textures = of_compute(limits.max_storage_textures_per_shader_stage);
+        if buffers == 0 || textures == 0 {
+            return Err(Error::NoCompute { buffers, textures });
         }
         let layout = bind_group_layout(device);
         let demand_bytes = size_of::<Measured>() as u64;
@@ -210,9 +210,16 @@ impl Measure {
         {
             return (group.clone(), false);
         }
+        // The caller's view may have a stencil, or be of an array of one layer; the shader reads neither.
+        let depth = prepass.texture().create_view(&wgpu::TextureViewDescriptor {
+            label: Some("scumble prepass"),
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            aspect: wgpu::TextureAspect::DepthOnly,
+            ..Default::default()
+        });
         let mut entries = vec![
             wgpu::BindGroupEntry { binding: 0, resource: self.uniform.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(prepass) },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&depth) },
             wgpu::BindGroupEntry { binding: 2, resource: self.demand.as_entire_binding() },
         ];
         entries.extend(self.blocks.as_ref().map(|blocks| wgpu::BindGroupEntry {

@@ -107,7 +107,21 @@ fn near_over_far(fit: &Fit) -> f64 {
 }
 
 /// A texture of moments with its view of all layers.
-pub fn moments_texture(device: &wgpu::Device, side: u32, layers: u32) -> (wgpu::Texture, wgpu::TextureView) {
+fn moments_texture(device: &wgpu::Device, side: u32, layers: u32) -> (wgpu::Texture, wgpu::TextureView) {
+    texture(device, side, layers, wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING)
+}
+
+/// What stands for moments where the filter has none: no device writes to it.
+pub fn no_moments(device: &wgpu::Device) -> wgpu::TextureView {
+    texture(device, 1, 1, wgpu::TextureUsages::TEXTURE_BINDING).1
+}
+
+fn texture(
+    device: &wgpu::Device,
+    side: u32,
+    layers: u32,
+    usage: wgpu::TextureUsages,
+) -> (wgpu::Texture, wgpu::TextureView) {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("scumble moments"),
         size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
@@ -115,7 +129,7 @@ pub fn moments_texture(device: &wgpu::Device, side: u32, layers: u32) -> (wgpu::
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: FORMAT,
-        usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
+        usage,
         view_formats: &[],
     });
     let all = texture.create_view(&wgpu::TextureViewDescriptor {

@@ -307,7 +307,7 @@ impl Shadows {
     /// dark. Shading other pixels needs an `upload` between. Called before `plan` it measures the maps of the last frame,
     /// and shading filters everywhere.
     ///
-    /// `prepass` is a view of the whole of a single-sample depth texture drawn with `camera.clip_from_world()`, cleared to 1.
+    /// `prepass` is a view of a single-sample depth texture, with or without stencil, drawn with `camera.clip_from_world()`, cleared to 1.
     /// A plan without maps records nothing.
     ///
     /// # Errors

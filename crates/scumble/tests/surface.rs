@@ -3,9 +3,9 @@
 mod common;
 
 use common::gpu;
-use common::rig::{Rig, fixed, ground_and, slab, sun_above};
-use glam::DVec3;
-use scumble::{Error, Filter, MAPS_MAX, Options, Settings, Shadows, SizeChoice};
+use common::rig::{Point, Rig, fixed, ground_and, slab, sun_above};
+use glam::{DVec3, Vec3};
+use scumble::{Aabb, Camera, Error, Filter, Light, MAPS_MAX, Options, Settings, Shadows, SizeChoice};
 
 fn settings(cap: u32) -> Settings {
     Settings { cap, ..Settings::default() }
@@ -46,6 +46,56 @@ fn more_lights_than_maps_and_another_number_of_maps_are_refused() {
 }
 
 #[test]
+fn scenes_lights_and_cameras_out_of_range_are_refused_by_name_and_leave_the_plans_as_they_were() {
+    let rig = Rig::new(settings(64), Options { maps: 2, ..Options::default() }, &ground_and(slab(1.0, 0.0)));
+    let plan = |camera: &Camera, bounds: &Aabb, lights: &[Light]| {
+        rig.shadows.plan(camera, bounds, lights).expect_err("it is out of range").to_string()
+    };
+    let sun = sun_above(0.1);
+    let nowhere = Aabb { max: DVec3::new(1.0, f64::NAN, 1.0), ..rig.bounds };
+    assert!(plan(&rig.camera, &nowhere, &[sun]).contains("NaN"), "{}", plan(&rig.camera, &nowhere, &[sun]));
+    let blind = Camera { vertical_fov: 0.0, ..rig.camera };
+    assert!(plan(&blind, &rig.bounds, &[sun]).contains("fov"));
+    let unlit = Light::Directional { direction: DVec3::ZERO, half_angle: 0.1 };
+    assert!(plan(&rig.camera, &rig.bounds, &[sun, unlit]).contains("direction"));
+    let many = plan(&rig.camera, &rig.bounds, &[sun; 64]);
+    assert!(many.contains("64 lights") && many.contains("4 are possible"), "{many}");
+    assert_eq!(rig.shadows.plan(&rig.camera, &rig.bounds, &[sun]).expect("nothing is wrong").views().len(), 1);
+}
+
+#[test]
+fn no_lights_a_scene_of_nothing_and_no_casters_are_frames_without_shadows() {
+    let point = Point { position: Vec3::ZERO, normal: Vec3::Y, pixel: [0, 0] };
+    let nothing = Aabb::from_points(std::iter::empty());
+    for (bounds, lights) in [(None, vec![]), (Some(nothing), vec![sun_above(0.1)])] {
+        let mut rig = Rig::new(settings(64), Options::default(), &ground_and(slab(1.0, 0.0)));
+        rig.bounds = bounds.unwrap_or(rig.bounds);
+        let plan = rig.draw_and_measure(&lights, 16);
+        assert!(plan.views().is_empty() && rig.visibility(&[point]) == [1.0]);
+    }
+    // A pass that nothing is drawn in leaves the map empty.
+    let mut rig = Rig::new(settings(64), Options::default(), &ground_and(slab(1.0, 0.0)));
+    let plan = rig.shadows.plan(&rig.camera, &rig.bounds, &[sun_above(0.1)]).unwrap();
+    rig.shadows.upload(&gpu().queue, &plan);
+    let mut encoder = gpu().encoder();
+    drop(rig.shadows.begin(&mut encoder, &plan.views()[0]));
+    gpu().finish(encoder);
+    assert_eq!(rig.visibility(&[point]), [1.0]);
+}
+
+#[test]
+fn a_view_of_other_shadows_is_drawn_within_the_texture_that_there_is() {
+    let big = Rig::new(settings(512), Options { maps: 4, ..fixed(Filter::Hard, 512) }, &ground_and(slab(1.0, 0.0)));
+    let lights = [sun_above(0.1), sun_above(0.2), sun_above(0.3)];
+    let plan = big.shadows.plan(&big.camera, &big.bounds, &lights).unwrap();
+    let mut small = Rig::new(settings(64), fixed(Filter::Hard, 64), &ground_and(slab(1.0, 0.0)));
+    let mut encoder = gpu().encoder();
+    small.casters.draw_maps(gpu(), &mut encoder, &mut small.shadows, &plan);
+    small.casters.draw_static(gpu(), &mut encoder, &mut small.shadows, &plan);
+    gpu().finish(encoder);
+}
+
+#[test]
 fn a_prepass_that_cannot_be_read_is_refused() {
     let mut rig = Rig::new(settings(64), fixed(Filter::Pcss, 64), &ground_and(slab(1.0, 0.0)));
     rig.draw(&[sun_above(0.1)]);
@@ -73,8 +123,13 @@ fn a_prepass_that_cannot_be_read_is_refused() {
         let refused = rig.shadows.measure(&gpu().queue, &mut encoder, &prepass, &rig.camera).unwrap_err();
         assert!(refused.to_string().contains("Depth32Float"), "{refused}");
     }
-    let good = texture(wgpu::TextureFormat::Depth24Plus, drawn | read, 1);
-    rig.shadows.measure(&gpu().queue, &mut encoder, &good, &rig.camera).unwrap();
+    for format in [wgpu::TextureFormat::Depth24Plus, wgpu::TextureFormat::Depth24PlusStencil8] {
+        let good = texture(format, drawn | read, 1);
+        rig.shadows.measure(&gpu().queue, &mut encoder, &good, &rig.camera).unwrap();
+        let blind = Camera { near: -1.0, ..rig.camera };
+        let refused = rig.shadows.measure(&gpu().queue, &mut encoder, &good, &blind).unwrap_err();
+        assert!(refused.to_string().contains("near"), "{refused}");
+    }
     gpu().finish(encoder);
 }
 

@@ -16,10 +16,11 @@ pub struct Gpu {
 /// The device of this process; fails with words where there is none.
 pub fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
-    GPU.get_or_init(open)
+    GPU.get_or_init(|| open(wgpu::Limits::default()))
 }
 
-fn open() -> Gpu {
+/// A device of its own with these limits.
+pub fn open(required_limits: wgpu::Limits) -> Gpu {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
     let adapter =
         pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).unwrap_or_else(|error| {
@@ -31,12 +32,12 @@ fn open() -> Gpu {
     let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
         label: Some("tests"),
         required_features: adapter.features() & wgpu::Features::DEPTH_CLIP_CONTROL,
-        required_limits: wgpu::Limits::default(),
+        required_limits,
         experimental_features: wgpu::ExperimentalFeatures::disabled(),
         memory_hints: wgpu::MemoryHints::default(),
         trace: wgpu::Trace::Off,
     }))
-    .expect("the adapter gives a device with WebGPU's default limits");
+    .expect("the adapter gives a device with these limits");
     Gpu { device, queue, turn: Mutex::new(()) }
 }
 
