@@ -172,5 +172,5 @@ fn all_that_shadows_bind_fits_the_least_uniform_buffers() {
     let most = wgpu::Limits::downlevel_webgl2_defaults().max_uniform_buffer_binding_size;
     assert_eq!(most, 16 << 10);
     let sizes = [size_of::<scumble::uniforms::LightsUniform>(), size_of::<scumble::uniforms::TapsUniform>()];
-    assert!(sizes.iter().all(|&size| size as u64 <= u64::from(most)), "{sizes:?}");
+    assert!(sizes.iter().all(|&size| size as u64 <= most), "{sizes:?}");
 }
