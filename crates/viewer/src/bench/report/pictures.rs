@@ -14,16 +14,26 @@ use crate::bench::reference::Pair;
 /// JPEG quality at which texels of a shadow's edge keep their contrast.
 const QUALITY: u8 = 92;
 
-/// The pictures of all pairs; `out` is the results folder.
+/// The pictures of all pairs, those that a share leaves as they are once, under every name; `out` is the results folder.
 pub fn pictures(pairs: &[Pair<'_>], out: &Path) -> Result<String> {
-    let mut html = String::new();
-    for (index, pair) in pairs.iter().enumerate() {
-        html += &figure(index, pair, out)?;
+    let mut shown: Vec<(&Pair<'_>, String)> = Vec::new();
+    for pair in pairs {
+        let name = pair.adaptive.key.filter_and_share();
+        match shown.iter_mut().find(|(first, _)| is_alike(first, pair)) {
+            Some((_, names)) => *names += &format!(" and {name}"),
+            None => shown.push((pair, name)),
+        }
     }
-    Ok(html)
+    shown.iter().enumerate().map(|(index, (pair, names))| figure(index, pair, names, out)).collect()
 }
 
-fn figure(index: usize, pair: &Pair<'_>, out: &Path) -> Result<String> {
+/// Whether two adaptive maps give one picture: of one scene and filter, with the same texels and error.
+fn is_alike(one: &Pair<'_>, other: &Pair<'_>) -> bool {
+    let (one, other) = (one.adaptive, other.adaptive);
+    one.key.is_beside(&other.key) && one.sizes_words() == other.sizes_words() && one.error() == other.error()
+}
+
+fn figure(index: usize, pair: &Pair<'_>, names: &str, out: &Path) -> Result<String> {
     let key = &pair.adaptive.key;
     let views = [
         (pair.fixed, "picture", format!("fixed {}", pair.fixed.sizes_words())),
@@ -44,11 +54,10 @@ fn figure(index: usize, pair: &Pair<'_>, out: &Path) -> Result<String> {
     }
     let errors = |row: &crate::bench::row::Row| format!("{:.4}", row.comparison.penumbra.rms);
     Ok(format!(
-        "<figure class=views><h3>{} under {}: {:.0} times fewer texels</h3>{tabs}<div>{images}</div>\
+        "<figure class=views><h3>{} under {names}: {:.0} times fewer texels</h3>{tabs}<div>{images}</div>\
          <figcaption>RMS error in the penumbra: fixed {}, adaptive {}. Error maps: red too bright, blue too dark, full colour \
          at 0.25 of the light.</figcaption></figure>",
         key.scene,
-        key.filter_and_share(),
         pair.fewer_texels(),
         errors(pair.fixed),
         errors(pair.adaptive),
@@ -68,4 +77,20 @@ fn embedded(path: &Path) -> Result<String> {
         .encode_image(&picture)
         .with_context(|| format!("{}: cannot be encoded", path.display()))?;
     Ok(format!("data:image/jpeg;base64,{}", encode(jpeg)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::examples::row;
+    use crate::bench::reference::pairs;
+
+    #[test]
+    fn a_share_that_changes_nothing_has_no_picture_of_its_own() {
+        let rows = [("2048", 0.1), ("adaptive", 0.2), ("adaptive@0.01", 0.2), ("adaptive@0.05", 0.3)];
+        let rows = rows.map(|(size, error)| row("yard", "pcss", size, 9.0, error));
+        let html = pictures(&pairs(&rows), Path::new("nowhere")).unwrap();
+        assert_eq!(html.matches("<figure").count(), 2, "{html}");
+        assert!(html.contains("yard under pcss and pcss @0.01:") && html.contains("yard under pcss @0.05:"), "{html}");
+    }
 }
