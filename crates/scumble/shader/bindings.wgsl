@@ -115,3 +115,5 @@ struct ShadowTaps {
 @group(0) @binding(4) var shadow_blocks: texture_2d_array<u32>;
 // By block of texels of each map: mean and variance of linear depth under the kernel of VSM.
 @group(0) @binding(5) var shadow_moments: texture_2d_array<f32>;
+// The maps again, for what reads a depth itself: GLSL has no way to do so through a texture that is also compared with.
+@group(0) @binding(6) var shadow_depths: texture_2d_array<f32>;

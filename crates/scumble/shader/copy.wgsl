@@ -3,7 +3,7 @@
 // A copy command would take the whole layer at the cap, as depth formats are copied whole; this touches only the texels in
 // use.
 
-@group(0) @binding(0) var kept: texture_depth_2d;
+@group(0) @binding(0) var kept: texture_2d<f32>;
 
 @vertex
 fn copy_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -13,5 +13,5 @@ fn copy_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 
 @fragment
 fn copy_depth(@builtin(position) at: vec4f) -> @builtin(frag_depth) f32 {
-    return textureLoad(kept, vec2i(at.xy), 0);
+    return textureLoad(kept, vec2i(at.xy), 0).x;
 }

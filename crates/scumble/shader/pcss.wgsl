@@ -45,7 +45,7 @@ fn shadow_find_blockers(map: u32, receiver: ShadowReceiver, radius_plane: f32, r
         let offset = radius_plane * (rotation * tap);
         let texel = receiver.texel + offset * shadow_lights.maps[map].texel_from_plane;
         let place = vec2i(clamp(texel, vec2f(0.0), viewport - 1.0)) + origin;
-        let depth = textureLoad(shadow_maps, place, layer, 0);
+        let depth = textureLoad(shadow_depths, place, layer, 0).x;
         let is_inside = all(texel >= vec2f(0.0)) && all(texel < viewport);
         if is_inside && depth < shadow_depth_at(receiver, offset) {
             count += 1u;

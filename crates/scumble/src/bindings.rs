@@ -105,6 +105,7 @@ fn group(
             wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(sampler) },
             wgpu::BindGroupEntry { binding: 4, resource: wgpu::BindingResource::TextureView(blocks) },
             wgpu::BindGroupEntry { binding: 5, resource: wgpu::BindingResource::TextureView(moments) },
+            wgpu::BindGroupEntry { binding: 6, resource: wgpu::BindingResource::TextureView(maps.sampled()) },
         ],
     })
 }
@@ -136,6 +137,7 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
             entry(3, sampler),
             entry(4, sampled_binding()),
             entry(5, moments::sampled_binding(wgpu::TextureViewDimension::D2Array)),
+            entry(6, moments::sampled_binding(wgpu::TextureViewDimension::D2Array)),
         ],
     })
 }

@@ -36,7 +36,8 @@
 //! then bounds and the filter's radius give the sizes, and PCSS, which has no radius, takes the cap's.
 //!
 //! The caller keeps device, queue, encoder, scene and camera. This crate never submits, never waits, and allocates at
-//! creation, at the first `measure`, and when the prepass changes its size. A directional light has one map or a cascade of
+//! creation, at the first `measure`, and when the prepass changes its size. Measuring and variance shadow maps need compute
+//! shaders; all else works within `wgpu::Limits::downlevel_webgl2_defaults()`, with sizes from bounds. A directional light has one map or a cascade of
 //! them ([`Options::cascades`]), a spot has one, a point light up to six: faces of 90 degrees and what its filter reaches
 //! beyond them, each fitted to what is seen in it and with a size of its own, none where nothing is seen.
 

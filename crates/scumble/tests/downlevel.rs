@@ -3,11 +3,18 @@
 
 mod common;
 
+use std::path::Path;
+
 use common::casters::Casters;
 use common::rig::{Point, Rig, camera_above, ground_and, slab, sun_above};
 use common::{Gpu, open};
 use glam::{DVec3, Vec3};
-use scumble::{Aabb, Error, Filter, FragmentDemand, Keep, Options, Settings, Shadows, shadow_wgsl};
+use naga::back::glsl;
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use scumble::{
+    Aabb, CLEAR_WGSL, COPY_WGSL, Error, FILTER_OVERRIDE, Filter, FragmentDemand, Keep, Options, Settings, Shadows,
+    filter_constant, shadow_wgsl,
+};
 
 /// Pixels a side of the picture: the 8 m of ground below `camera_above`.
 const SIDE: u32 = 64;
@@ -167,10 +174,69 @@ fn what_needs_storage_or_compute_is_refused_in_words() {
     assert!(matches!(refused, Error::NoMoments { found: 0 }));
 }
 
+/// A shader for WebGL 2, of one filter.
+fn glsl(source: &str, entry_point: &str, shader_stage: naga::ShaderStage, filter: Option<&Filter>) -> String {
+    let module = naga::front::wgsl::parse_str(source).expect("it is WGSL");
+    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::all());
+    let info = validator.validate(&module).expect("it is valid");
+    let constants = filter.map(|filter| (FILTER_OVERRIDE.to_owned(), filter_constant(filter))).into_iter().collect();
+    let (module, info) = naga::back::pipeline_constants::process_overrides(&module, &info, None, &constants)
+        .expect("the constant is known");
+    let version = glsl::Version::Embedded { version: 300, is_webgl: true };
+    let options = glsl::Options { version, ..Default::default() };
+    let pipeline = glsl::PipelineOptions { shader_stage, entry_point: entry_point.into(), multiview: None };
+    let mut text = String::new();
+    let checks = naga::proc::BoundsCheckPolicies::default();
+    glsl::Writer::new(&mut text, &module, &info, &options, &pipeline, checks)
+        .and_then(|mut writer| writer.write())
+        .unwrap_or_else(|error| panic!("{entry_point} {filter:?}: {error}"));
+    text
+}
+
+#[test]
+fn shaders_of_shadows_have_a_translation_for_webgl() {
+    let shading = [&shadow_wgsl(0), SHADE].join("\n");
+    for filter in [Filter::Hard, Filter::Pcf { radius_world: 1.0 }, Filter::Pcss] {
+        let text = glsl(&shading, "shade", naga::ShaderStage::Fragment, Some(&filter));
+        assert!(text.contains("sampler2DArrayShadow"), "maps are compared with");
+    }
+    glsl(CLEAR_WGSL, "clear_vertex", naga::ShaderStage::Vertex, None);
+    glsl(COPY_WGSL, "copy_vertex", naga::ShaderStage::Vertex, None);
+    glsl(COPY_WGSL, "copy_depth", naga::ShaderStage::Fragment, None);
+}
+
 #[test]
 fn all_that_shadows_bind_fits_the_least_uniform_buffers() {
     let most = wgpu::Limits::downlevel_webgl2_defaults().max_uniform_buffer_binding_size;
     assert_eq!(most, 16 << 10);
     let sizes = [size_of::<scumble::uniforms::LightsUniform>(), size_of::<scumble::uniforms::TapsUniform>()];
     assert!(sizes.iter().all(|&size| size as u64 <= most), "{sizes:?}");
+}
+
+/// Text of all sources of a crate beside this one.
+fn sources(name: &str) -> String {
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src")];
+    let mut text = String::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("the sources are there") {
+            let path = entry.expect("the sources can be listed").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                text += &std::fs::read_to_string(&path).expect("sources are text");
+            }
+        }
+    }
+    text
+}
+
+#[test]
+fn neither_crate_asks_for_a_clock_a_file_a_thread_or_a_socket_which_a_browser_lacks() {
+    for name in ["scumble", "scumble-core"] {
+        let text = sources(name);
+        assert!(text.contains("pub struct Settings") || text.contains("pub struct Shadows"));
+        for lacking in ["time", "fs", "thread", "net", "process", "env"] {
+            assert!(!text.contains(&format!("std::{lacking}")), "{name} uses std::{lacking}");
+        }
+    }
 }

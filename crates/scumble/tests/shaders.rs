@@ -97,7 +97,7 @@ fn the_bindings_move_to_the_callers_group() {
         .iter()
         .filter_map(|(_, variable)| variable.binding.as_ref().map(|binding| binding.group))
         .collect();
-    assert_eq!(groups, [2; 6]);
+    assert_eq!(groups, [2; 7]);
 }
 
 #[test]
