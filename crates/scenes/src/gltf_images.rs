@@ -3,7 +3,8 @@
 //!
 //! A scene for shadows needs no texture, but a ship should be brown and its sails light: the mean over all texels, taken in
 //! linear light (texels are sRGB code values) and weighted by alpha, is enough. Texture transforms, repeats and the part of
-//! the texture that a mesh really uses are ignored by the mean; transforms by masks, too.
+//! the texture that a mesh really uses are ignored by the mean; transforms by masks, too. A mask without a texture is opaque.
+//! Two channels are a grey and its alpha, as PNG files have them.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -17,6 +18,8 @@ use crate::alpha_mask::{AlphaTexture, Wrap};
 
 /// Texels looked at per image, on a regular stride: a mean over 4096 has a standard error below 1 %.
 const SAMPLES: usize = 4096;
+/// Which byte of a 16-bit number is the higher one.
+const HIGH_BYTE: usize = if cfg!(target_endian = "little") { 1 } else { 0 };
 /// The cutoff of a mask that names none, by the format.
 const CUTOFF: f32 = 0.5;
 
@@ -85,12 +88,13 @@ pub fn alpha_texture(material: &gltf::Material<'_>, images: &[Image]) -> Option<
     let info = surface.base_color_texture()?;
     let (size, alphas) = image_of(material, images)?.alphas.clone()?;
     let sampler = info.texture().sampler();
+    let cutoff = material.alpha_cutoff().unwrap_or(CUTOFF);
     let texture = AlphaTexture {
         size,
         alphas,
         wrap: [sampler.wrap_s(), sampler.wrap_t()].map(wrap),
         // Alpha is factor times texel.
-        cutoff: material.alpha_cutoff().unwrap_or(CUTOFF) / factor,
+        cutoff: if cutoff > 0.0 { cutoff / factor } else { 0.0 },
     };
     (!texture.is_solid()).then_some((texture, info.tex_coord()))
 }
@@ -152,10 +156,11 @@ fn mean(image: &Data) -> Vec3 {
 fn alphas(image: &Data) -> Option<Arc<[u8]>> {
     let every = |bytes: usize, at: usize| image.pixels.chunks_exact(bytes).map(|texel| texel[at]).collect();
     match image.format {
+        Format::R8G8 => Some(every(2, 1)),
         Format::R8G8B8A8 => Some(every(4, 3)),
-        // Little-endian: the high byte is the last.
-        Format::R16G16B16A16 if cfg!(target_endian = "little") => Some(every(8, 7)),
-        Format::R16G16B16A16 => Some(every(8, 6)),
+        // The high byte of a number in the machine's order.
+        Format::R16G16 => Some(every(4, 2 + HIGH_BYTE)),
+        Format::R16G16B16A16 => Some(every(8, 6 + HIGH_BYTE)),
         Format::R32G32B32A32FLOAT => {
             let alpha = |texel: &[u8]| f32::from_ne_bytes([texel[12], texel[13], texel[14], texel[15]]);
             Some(image.pixels.chunks_exact(16).map(|texel| (alpha(texel) * 255.0).round() as u8).collect())

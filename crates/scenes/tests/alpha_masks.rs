@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 use glam::Vec2;
-use image::{ImageFormat, Rgba, RgbaImage};
+use image::{DynamicImage, ImageFormat, Rgba, RgbaImage};
 use scumble_scenes::{Mesh, Wrap, load_gltf};
 use std::path::PathBuf;
 use tempfile::TempDir;
@@ -32,8 +32,13 @@ impl Card {
 
     fn written(&self) -> (TempDir, PathBuf) {
         let folder = tempfile::tempdir().unwrap();
-        let texture = RgbaImage::from_fn(4, 4, |x, _| Rgba([200, 100, 50, if x < 2 { self.left } else { 255 }]));
-        texture.save_with_format(folder.path().join("card.png"), ImageFormat::Png).unwrap();
+        let texture = DynamicImage::from(RgbaImage::from_fn(4, 4, |x, _| {
+            Rgba([200, 100, 50, if x < 2 { self.left } else { 255 }])
+        }));
+        let pictures = [("card.png", texture.clone()), ("grey.png", texture.to_luma_alpha8().into())];
+        for (name, texture) in pictures.into_iter().chain([("deep.png", DynamicImage::from(texture.to_rgba16()))]) {
+            texture.save_with_format(folder.path().join(name), ImageFormat::Png).unwrap();
+        }
         let positions: [f32; 12] = [0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 2.0, 0.0];
         let uvs: [f32; 8] = [0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
         let mut bytes: Vec<u8> = positions.iter().chain(&uvs).flat_map(|x| x.to_le_bytes()).collect();
@@ -75,11 +80,19 @@ fn a_masked_card_keeps_its_texture_coordinates_and_what_they_look_up() {
 }
 
 #[test]
+fn grey_and_deep_pictures_cut_out_alike() {
+    let of = |image| Card { image, ..WHOLE }.load()[0].mask.clone().unwrap().texture;
+    let colored = of("card.png");
+    assert_eq!([of("grey.png"), of("deep.png")], [colored.clone(), colored]);
+}
+
+#[test]
 fn a_surface_without_a_hole_has_no_mask() {
     for card in [
         Card { material: r#""alphaMode": "OPAQUE""#, ..WHOLE },
         Card { material: r#""alphaMode": "BLEND""#, ..WHOLE },
         Card { left: 200, ..WHOLE },
+        Card { material: r#""alphaMode": "MASK", "alphaCutoff": 0"#, ..WHOLE },
         Card { attributes: r#""POSITION": 0"#, ..WHOLE },
         Card { image: "missing.png", ..WHOLE },
     ] {

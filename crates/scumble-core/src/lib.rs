@@ -88,6 +88,6 @@ pub use relation_file::{
 };
 pub use rest::Rest;
 pub use seen::{Seen, SeenBand, SeenCascades, SeenLately, seen_cascades};
-pub use settings::{Filter, Settings, pixel_footprint_world};
+pub use settings::{AtCap, Filter, Settings, pixel_footprint_world};
 pub use split::Splits;
 pub use statistic::{RadiusHistogram, Statistic};

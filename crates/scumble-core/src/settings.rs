@@ -62,6 +62,17 @@ impl Filter {
     }
 }
 
+/// What gives way where the screen asks for more texels than a map may have, under PCSS.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AtCap {
+    /// Width: shadows that are too narrow are widened until their texels hide (Kreuzer 2017, 6.2).
+    #[default]
+    Widen,
+    /// Smoothness: they keep their width and show texels. Nearer to the light.
+    ShowTexels,
+}
+
 /// Choices of one renderer, all lights together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -71,6 +82,8 @@ pub struct Settings {
     pub statistic: Statistic,
     /// Most texels per side; maps are allocated once at this size.
     pub cap: u32,
+    /// What gives way where the cap binds.
+    pub at_cap: AtCap,
     /// Least texels per side.
     pub floor: u32,
     /// Most bytes that all maps together take, allocated and used; `None` for one of `cap` squared texels for each. Maps that
@@ -104,6 +117,7 @@ impl Default for Settings {
             relation: Relation::published(),
             statistic: Statistic::default(),
             cap: 4096,
+            at_cap: AtCap::default(),
             floor: 8,
             budget_bytes: None,
             texel_floor_world: 0.0,

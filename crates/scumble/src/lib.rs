@@ -69,7 +69,7 @@ pub use fragments::{FragmentDemand, FragmentsStorage};
 pub use measure::NOTHING as MEASURE_NOTHING;
 pub use options::{Keep, Options, SizeChoice};
 pub use plan::filter_constant;
-pub use scumble_core::{self, Aabb, Camera, Face, Filter, Light, Settings, Splits, Statistic};
+pub use scumble_core::{self, Aabb, AtCap, Camera, Face, Filter, Light, Settings, Splits, Statistic};
 pub use shaders::{
     CLEAR_WGSL, COPY_WGSL, FILTER_OVERRIDE, classify_wgsl, fragments_wgsl, measure_wgsl, shadow_wgsl, vsm_box_wgsl,
     vsm_reduce_wgsl,

@@ -8,8 +8,8 @@
 use bytemuck::Zeroable;
 use glam::{DMat4, DVec2, DVec3, Mat4};
 use scumble_core::{
-    Aabb, Bias, Budget, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Rest, Settings, TexelPolicy, size_achieved,
-    slices_of,
+    Aabb, AtCap, Bias, Budget, Camera, Demand, Filter, Fit, Light, ReceiverPlane, Rest, Settings, TexelPolicy,
+    size_achieved, slices_of,
 };
 
 use crate::demand::{Found, first_bin};
@@ -152,9 +152,10 @@ impl Planner<'_> {
             Demand::Radius(_) | Demand::Nothing => None,
         };
         let size = size_achieved(texels, fit.extent_world, radius, &self.settings.relation);
-        // Where the cap binds, narrower filters than it hides are widened (Kreuzer 2017, 6.2), and under a net and in a map
-        // that rests all are. A fixed size is left alone.
-        let widens = self.options.size == SizeChoice::Adaptive && (size.capped || is_net || is_resting);
+        // Where the cap binds, narrower filters than it hides are widened if so chosen, and under a net and in a map that
+        // rests all are. A fixed size is left alone.
+        let gives_width = size.capped && self.settings.at_cap == AtCap::Widen;
+        let widens = self.options.size == SizeChoice::Adaptive && (gives_width || is_net || is_resting);
         let least = if widens { size.radius_min_world } else { 0.0 };
         View {
             light,

@@ -5,7 +5,7 @@ mod common;
 use common::gpu;
 use common::rig::{Point, Rig, fixed, ground_and, slab, sun_above};
 use glam::{DVec3, Vec3};
-use scumble::{Aabb, Camera, Error, Filter, Light, MAPS_MAX, Options, Settings, Shadows, SizeChoice};
+use scumble::{Aabb, AtCap, Camera, Error, Filter, Light, MAPS_MAX, Options, Settings, Shadows, SizeChoice};
 
 fn settings(cap: u32) -> Settings {
     Settings { cap, ..Settings::default() }
@@ -93,6 +93,17 @@ fn a_view_of_other_shadows_is_drawn_within_the_texture_that_there_is() {
     small.casters.draw_maps(gpu(), &mut encoder, &mut small.shadows, &plan);
     small.casters.draw_static(gpu(), &mut encoder, &mut small.shadows, &plan);
     gpu().finish(encoder);
+}
+
+#[test]
+fn at_the_cap_narrow_shadows_are_widened_or_show_their_texels() {
+    for (at_cap, is_widened) in [(AtCap::Widen, true), (AtCap::ShowTexels, false)] {
+        let rig = Rig::new(Settings { at_cap, ..settings(64) }, Options::default(), &ground_and(slab(1.0, 0.0)));
+        let plan = rig.shadows.plan(&rig.camera, &rig.bounds, &[sun_above(0.1)]).unwrap();
+        let view = &plan.views()[0];
+        assert!(view.size.capped);
+        assert_eq!(view.radius_min_world > 0.0, is_widened, "{at_cap:?}");
+    }
 }
 
 #[test]

@@ -27,7 +27,6 @@ mod scenes;
 mod setup;
 mod shading;
 mod shot;
-mod size;
 mod stage;
 mod statistics;
 mod timer;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use scumble_core::{Face, Filter, Fit, Light, Relation, Splits, fit_face, slices_of};
+use scumble_core::{AtCap, Face, Filter, Fit, Light, Relation, Splits, fit_face, slices_of};
 use scumble_scenes::Scene;
 
 use crate::cli::{Conditions, LightKind, Method};
@@ -20,6 +20,8 @@ pub struct Setup {
     pub pcf_radius_plane: f64,
     /// Most texels per side of an adaptive map.
     pub cap: u32,
+    /// What gives way there.
+    pub at_cap: AtCap,
     /// Into how many slices the view of a sun is cut.
     pub cascades: Splits,
     /// Texels per radius.
@@ -45,7 +47,15 @@ impl Setup {
         };
         let pcf_radius_plane = pcf_radius_plane(&scene, conditions.radius.unwrap_or(scene.pcf_radius_world))?;
         let cascades = Splits { count: conditions.cascades, ..Splits::default() };
-        Ok(Self { scene, pcf_radius_plane, cap: conditions.cap, cascades, relation, relation_source })
+        Ok(Self {
+            scene,
+            pcf_radius_plane,
+            cap: conditions.cap,
+            at_cap: conditions.at_cap.at_cap(),
+            cascades,
+            relation,
+            relation_source,
+        })
     }
 
     /// How many maps the light has.

@@ -6,13 +6,12 @@ use anyhow::{Context, Result};
 use scumble::{Aabb, Counters, Filter, Options, Plan, Settings, Shadows, SizeChoice};
 
 use crate::casters::CasterPass;
-use crate::cli::Method;
+use crate::cli::{Method, Size};
 use crate::evaluation::{EvaluationPass, Output};
 use crate::gbuffer::GBuffer;
 use crate::readback::read_texture;
 use crate::record::MapRecord;
 use crate::setup::Setup;
-use crate::size::Size;
 use crate::stage::Stage;
 use crate::timer::{Timer, Times};
 
@@ -43,7 +42,7 @@ pub fn still_settings(setup: &Setup) -> Settings {
 
 /// Settings for a picture that moves: the drop-in's own.
 pub fn moving_settings(setup: &Setup) -> Settings {
-    Settings { relation: setup.relation, cap: setup.cap, ..Settings::default() }
+    Settings { relation: setup.relation, cap: setup.cap, at_cap: setup.at_cap, ..Settings::default() }
 }
 
 /// A shadow map under test.

@@ -2,11 +2,9 @@
 //! cells and the documentation cannot part. Numbers that were not measured are empty cells.
 
 use anyhow::{Context, Result};
-use scumble_reference::{Differences, HIDDEN_TILT_DEG};
+use scumble_reference::Differences;
 use serde::{Deserialize, Serialize};
 
-use crate::bench::comparison::GRAIN_RADIUS_PX;
-use crate::bench::edges::{LENGTH_MIN_PX, PENUMBRA_PX};
 use crate::bench::record::OptionsRecord;
 use crate::bench::row::Row;
 use crate::statistics::Spread;
@@ -17,7 +15,7 @@ const PARTS: [(&str, &str); 6] = [
     ("moments", "filtering the map, vsm only"),
     ("demand", "demand pass, which a fixed size has not"),
     ("evaluation", "filter at every pixel"),
-    ("total", "depth, moments, demand and evaluation together"),
+    ("total", "the three together"),
     ("drawing", "receivers and shading, which no size changes"),
 ];
 
@@ -165,7 +163,7 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         ),
         column(
             "penumbra_noise_rms",
-            &format!("the part of `penumbra_rms` that differs between neighbours of {0} x {0} pixels", 2 * GRAIN_RADIUS_PX + 1),
+            "the part of `penumbra_rms` that differs between neighbours of 5 x 5 pixels",
             Box::new(|row| number(some_of(row, row.comparison.parts.noise_rms))),
         ),
         column(
@@ -180,10 +178,7 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         ),
         column(
             "edge_length_px",
-            &format!(
-                "pixels of true edges on even surfaces in penumbrae of {PENUMBRA_PX} pixels and more; this and the next four are \
-                 empty below {LENGTH_MIN_PX}"
-            ),
+            "pixels of true edges on even surfaces in penumbrae of 8 pixels and more; this and the next four are empty below 100",
             Box::new(|row| number(row.comparison.edges.map(|edges| edges.length_px))),
         ),
         column(
@@ -203,7 +198,7 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         ),
         column(
             "edge_tilt_visible_share",
-            &format!("share of their length that is tilted by more than the {HIDDEN_TILT_DEG} degrees that observers miss"),
+            "share of their length that is tilted by more than the 8.2 degrees that observers miss",
             Box::new(|row| number(row.comparison.edges.map(|edges| edges.tilt_visible_share))),
         ),
     ]);

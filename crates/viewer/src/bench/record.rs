@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
+use scumble::AtCap;
 use serde::{Deserialize, Serialize};
 
 use crate::bench::column::Description;
@@ -67,6 +68,8 @@ pub struct OptionsRecord {
     pub sweep_ratio: bool,
     /// Most texels per side of an adaptive map.
     pub cap: u32,
+    /// What gives way there.
+    pub at_cap: AtCap,
     /// Maps of a sun.
     #[serde(default = "one_map")]
     pub cascades: u32,
@@ -97,6 +100,7 @@ impl OptionsRecord {
             paths: options.paths.iter().map(|path| path.name().to_owned()).collect(),
             sweep_ratio: options.sweep_ratio,
             cap: conditions.cap,
+            at_cap: conditions.at_cap.at_cap(),
             cascades: conditions.cascades,
             light_size: conditions.light_size,
             radius: conditions.radius,

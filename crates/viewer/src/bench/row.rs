@@ -6,13 +6,12 @@ use std::path::Path;
 
 use anyhow::Result;
 use scumble::Statistic;
-use scumble_reference::Differences;
 use serde::{Deserialize, Serialize};
 
 use crate::bench::comparison::Comparison;
 use crate::bench::pictures::Files;
+use crate::cli::Size;
 use crate::record::MapRecord;
-use crate::size::Size;
 use crate::stage::Stage;
 use crate::statistics::Spread;
 use crate::timer::Times;
@@ -222,20 +221,15 @@ impl Row {
         self.times_ms.get("total").map(|spread| spread.median)
     }
 
-    /// Errors in the penumbra; `None` where the filter leaves none.
-    pub fn penumbra(&self) -> Option<&Differences> {
-        Some(&self.comparison.penumbra).filter(|penumbra| penumbra.pixels > 0)
-    }
-
-    /// RMS error in the penumbra.
+    /// RMS error in the penumbra; `None` where the filter leaves none.
     pub fn error(&self) -> Option<f64> {
-        self.penumbra().map(|penumbra| penumbra.rms)
+        let penumbra = &self.comparison.penumbra;
+        (penumbra.pixels > 0).then_some(penumbra.rms)
     }
 
-    /// RMS error against the light itself, where it is seen in part; `None` where it nowhere is.
+    /// RMS error in the penumbra against the light itself.
     pub fn light_error(&self) -> Option<f64> {
-        let light = self.comparison.light.as_ref()?;
-        (light.penumbra.pixels > 0).then_some(light.penumbra.rms)
+        self.comparison.light.as_ref().map(|light| light.penumbra.rms)
     }
 }
 
@@ -252,7 +246,8 @@ impl fmt::Display for Row {
         if let Some(total) = self.total_ms() {
             write!(formatter, "  {total:>7.1} ms")?;
         }
-        if let Some(penumbra) = self.penumbra() {
+        let penumbra = &self.comparison.penumbra;
+        if penumbra.pixels > 0 {
             write!(formatter, "  penumbra RMS {:.4} p99 {:.3} bias {:+.4}", penumbra.rms, penumbra.p99, penumbra.bias)?;
         }
         if let Some(error) = self.light_error() {

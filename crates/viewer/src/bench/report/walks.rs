@@ -1,9 +1,6 @@
 //! What changes on the way, in numbers: pops, shimmer, and whether any frame is slower than the fixed map's.
 
-use crate::bench::cell::ratio;
-use crate::bench::report::escaped;
 use crate::bench::walk::{Points, Walk};
-use crate::statistics::Spread;
 
 /// The table of all paths.
 pub fn table(walks: &[Walk]) -> String {
@@ -14,10 +11,12 @@ pub fn table(walks: &[Walk]) -> String {
     );
     for walk in walks {
         let ratios = walk.time_ratios();
+        let spread = crate::statistics::Spread::of(&ratios);
+        let most = ratios.iter().copied().fold(f64::NAN, f64::max);
         let points = walk.adaptive_points.as_ref();
         html += &format!(
             "<tr><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}",
-            escaped(&walk.key.scene),
+            walk.key.scene,
             walk.key.filter(),
             walk.path,
             walk.switches(),
@@ -25,8 +24,8 @@ pub fn table(walks: &[Walk]) -> String {
             share(points.map(|points| points.pop.steady_mean)),
             share(points.map(shimmer)),
             share(walk.fixed_points.as_ref().map(shimmer)),
-            ratio(Spread::of(&ratios).map(|spread| spread.median)),
-            ratio(ratios.iter().copied().max_by(f64::total_cmp)),
+            spread.map_or("-".into(), |spread| format!("{:.2}", spread.median)),
+            if most.is_nan() { "-".into() } else { format!("{most:.2}") },
         );
     }
     html + "</tbody></table></div><p class=note>Changes are those of the visibility at fixed points of the world between two \
