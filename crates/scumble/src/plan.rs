@@ -111,7 +111,7 @@ impl Planner<'_> {
                 let is_adaptive = options.size == SizeChoice::Adaptive;
                 let is_resting = is_adaptive && !slice.is_net && states[map as usize].rest.is_resting(settings);
                 let is_on_steps = is_adaptive && options.keep != Keep::Nothing;
-                let mut asks = Asked { map, fit, texel_world: DVec2::ONE, is_on_steps };
+                let mut asks = Asked { map, fit, texel_world: DVec2::ONE, is_known: slice.is_known, is_on_steps };
                 asks.texel_world =
                     self.texel_world(&mut plan.policies[map as usize], map, asks.extent_world(), &slice)?;
                 asked.push(asks);
@@ -121,7 +121,7 @@ impl Planner<'_> {
         }
 
         // What they get.
-        let (granted, budget) = share(settings, options.size, self.page_side, &self.budget, &asked)?;
+        let (granted, budget) = share(settings, options, self.page_side, &self.budget, &asked)?;
         plan.budget = budget;
         for ((draft, asked), granted) in drafts.into_iter().zip(asked).zip(granted) {
             let view = self.view(draft, asked.map, granted);
@@ -131,10 +131,14 @@ impl Planner<'_> {
         Ok(plan)
     }
 
-    /// The texel that a map of this extent asks for. A net does not rest.
+    /// The texel that a map of this extent asks for. A net does not rest. What is not known to be asked for leaves the map's
+    /// texel alone under a budget: without a cap it is boundless, and would stay where a measurement finds nothing.
     fn texel_world(&self, policy: &mut TexelPolicy, map: u32, extent: DVec2, slice: &Slice) -> Result<DVec2, Error> {
         if let SizeChoice::Fixed(_) = self.options.size {
             return Ok(DVec2::ONE);
+        }
+        if self.page_side.is_some() && !slice.is_known {
+            return Ok(TexelPolicy::new(self.settings)?.next(extent, slice.demand)?);
         }
         let texel_world = policy.next(extent, slice.demand)?;
         if slice.is_net {

@@ -55,8 +55,8 @@ impl Shadows {
 
     /// Allocates `options.maps` maps at the settings' cap, 4 bytes a texel, with [`Keep::StaticLayers`] as much again, and
     /// with VSM their moments, 8 bytes a texel of one map more: all the memory this will ever take. With
-    /// [`Settings::budget_bytes`] it is one page in their place, of that many bytes and as wide as the device allows at most,
-    /// which the maps of a frame share as they need it; layers of static casters are a page beside it.
+    /// [`Settings::budget_bytes`] all that takes no more than so many bytes: one page, as wide as the device allows at most,
+    /// is in the place of the layers, and the maps of a frame share it as they need it.
     ///
     /// # Errors
     /// Settings or options out of range, a cap above the device's limit, VSM on a device without compute shaders, a budget
@@ -68,7 +68,7 @@ impl Shadows {
             return Err(Error::CapOutsideDevice { cap: settings.cap, device_limit });
         }
         let options = options.checked(settings.cap)?;
-        let page_side = page_side(&settings, &options.filter, options.maps, device_limit)?;
+        let page_side = page_side(&settings, &options, device_limit)?;
         let maps = match page_side {
             Some(side) => Maps::new(device, side, 1),
             None => Maps::new(device, settings.cap, options.maps),

@@ -2,7 +2,8 @@
 //!
 //! Without a budget every map has a layer, of which it takes what it asks for, up to the cap. Under one
 //! ([`Settings::budget_bytes`]) all maps share one page of that many bytes, on which they are [packed](crate::atlas). What does not fit
-//! gives way by [`Budget`]'s rule. Rooms are for the most texels that a box may take, so that neither sizes nor places follow
+//! gives way by [`Budget`]'s rule; what is not known to be asked for, before the first measurement, has an equal share of the page
+//! as its cap, so that it takes nothing from what is. Rooms are for the most texels that a box may take, so that neither sizes nor places follow
 //! a box that only moves.
 
 use glam::DVec2;
@@ -11,7 +12,7 @@ use scumble_core::{Budget, Filter, Fit, Settings, given_way, texels_at_most};
 use crate::atlas::pack;
 use crate::error::Error;
 use crate::moments;
-use crate::options::SizeChoice;
+use crate::options::{Keep, Options, SizeChoice};
 
 /// Bytes of a texel of depth.
 const DEPTH_BYTES: u64 = 4;
@@ -25,6 +26,8 @@ pub struct Asked {
     pub fit: Fit,
     /// The texel that it asks for, of the ladder; nothing under a fixed size.
     pub texel_world: DVec2,
+    /// Whether the screen is known to ask for it.
+    pub is_known: bool,
     /// Whether its box is on steps, so that it stays while the view creeps.
     pub is_on_steps: bool,
 }
@@ -53,21 +56,29 @@ pub struct Granted {
 /// Side of the one page that a budget allows, in texels; `None` without a budget.
 ///
 /// # Errors
-/// A budget below what `maps` of the least size need.
-pub fn page_side(settings: &Settings, filter: &Filter, maps: u32, device_limit: u32) -> Result<Option<u32>, Error> {
+/// A budget below what the options' maps of the least size need.
+pub fn page_side(settings: &Settings, options: &Options, device_limit: u32) -> Result<Option<u32>, Error> {
     let Some(budget_bytes) = settings.budget_bytes else { return Ok(None) };
-    // Moments lie on a page of their own, and so does what is between their passes.
-    let texel_bytes = match filter {
-        Filter::Vsm { .. } => DEPTH_BYTES + 2 * moments::TEXEL_BYTES,
-        Filter::Hard | Filter::Pcf { .. } | Filter::Pcss => DEPTH_BYTES,
+    let maps = options.maps;
+    // Moments lie on a page of their own, and so do what is between their passes and static casters that are kept apart.
+    let of_moments = match options.filter {
+        Filter::Vsm { .. } => 2 * moments::TEXEL_BYTES,
+        Filter::Hard | Filter::Pcf { .. } | Filter::Pcss => 0,
     };
+    let of_static = if options.keep == Keep::StaticLayers { DEPTH_BYTES } else { 0 };
+    let texel_bytes = DEPTH_BYTES + of_moments + of_static;
     let side = (budget_bytes / texel_bytes).isqrt().min(u64::from(device_limit)) as u32;
-    let across = u64::from(maps).isqrt() as u32;
-    let least = settings.floor * if across * across < maps { across + 1 } else { across };
+    let least = settings.floor * equal_across(maps);
     if side < least {
         return Err(Error::Budget { found: budget_bytes, least: texel_bytes * u64::from(least).pow(2), maps });
     }
     Ok(Some(side))
+}
+
+/// How many maps of one size lie beside each other on a page with room for all.
+fn equal_across(maps: u32) -> u32 {
+    let across = maps.isqrt();
+    if across * across < maps { across + 1 } else { across }
 }
 
 /// Sizes and places of all maps, in their order, on a page of `page_side` or in layers, and how far they gave way.
@@ -76,19 +87,23 @@ pub fn page_side(settings: &Settings, filter: &Filter, maps: u32, device_limit: 
 /// Fixed sizes that the page has no room for.
 pub fn share(
     settings: &Settings,
-    size: SizeChoice,
+    options: &Options,
     page_side: Option<u32>,
     budget: &Budget,
     asked: &[Asked],
 ) -> Result<(Vec<Granted>, Budget), Error> {
+    let size = options.size;
     let Some(side) = page_side else {
         let own_layer = |asked: &Asked| granted(settings, size, asked, asked.texel_world, asked.map, [0; 2]);
         return Ok((asked.iter().map(own_layer).collect(), *budget));
     };
-    let cap = settings.cap.min(side);
+    let cap_known = settings.cap.min(side);
+    let cap_unknown = cap_known.min(side / equal_across(options.maps));
     let texels = |rungs: u32, growth: f64| -> Vec<DVec2> {
-        let given =
-            |asked: &Asked| given_way(asked.texel_world, growth * asked.extent_world(), rungs, cap, settings.floor);
+        let given = |asked: &Asked| {
+            let cap = if asked.is_known { cap_known } else { cap_unknown };
+            given_way(asked.texel_world, growth * asked.extent_world(), rungs, cap, settings.floor)
+        };
         asked.iter().map(given).collect()
     };
     let rooms = |rungs: u32, growth: f64| -> Vec<[u32; 2]> {

@@ -44,6 +44,8 @@ pub struct Slice {
     pub border_world: f64,
     /// What it is asked for.
     pub demand: Demand,
+    /// Whether that is a radius of what is filtered, and not a bound that stands until the first measurement.
+    pub is_known: bool,
     /// Whether it is the net under the others.
     pub is_net: bool,
 }
@@ -80,7 +82,8 @@ pub fn slices(
         let border_world = fit.as_ref().map_or(0.0, |fit| border_world(fit, reach_world(fit, &options.filter)));
         let fit = fit.map(|fit| fit.with_border(border_world));
         let demand = fit.as_ref().map_or(Demand::Nothing, |fit| demand(settings, &options.filter, fit, state.measured));
-        Slice { slice, depth_end, fit, border_world, demand, is_net: false }
+        let is_known = state.measured.is_some() || options.filter.fixed_radius_world().is_some();
+        Slice { slice, depth_end, fit, border_world, demand, is_known, is_net: false }
     };
     let mut slices: Vec<Slice> = (0..).zip(cascades).zip(states).map(slice).collect();
     lend(&mut slices);
@@ -88,13 +91,24 @@ pub fn slices(
     Ok((slices, depths))
 }
 
-/// Slices that something is in and no penumbra are lent a demand.
+/// Slices that something is in and no penumbra are lent a demand; and so are faces of a point light that were not measured yet,
+/// since they come into view one by one: each would go to its cap until its own measurement is back.
 fn lend(slices: &mut [Slice]) {
-    let mut present: Vec<&mut Slice> = slices.iter_mut().filter(|slice| slice.fit.is_some()).collect();
-    let extent = |slice: &Slice| slice.fit.as_ref().map_or(0.0, |fit| fit.extent_world.max_element());
-    let asked: Vec<(Demand, f64)> = present.iter().map(|slice| (slice.demand, extent(slice))).collect();
-    for (slice, demand) in present.iter_mut().zip(lent(&asked)) {
-        slice.demand = demand;
+    let mut present: Vec<(&mut Slice, Fit)> =
+        slices.iter_mut().filter_map(|slice| slice.fit.clone().map(|fit| (slice, fit))).collect();
+    let is_new_face = |slice: &Slice, fit: &Fit| fit.face.is_some() && !slice.is_known;
+    let asked: Vec<(Demand, f64)> = present
+        .iter()
+        .map(|(slice, fit)| {
+            let demand = if is_new_face(slice, fit) { Demand::Nothing } else { slice.demand };
+            (demand, fit.extent_world.max_element())
+        })
+        .collect();
+    for ((slice, fit), demand) in present.iter_mut().zip(lent(&asked)) {
+        if demand != Demand::Nothing || !is_new_face(slice, fit) {
+            slice.is_known |= is_new_face(slice, fit);
+            slice.demand = demand;
+        }
     }
 }
 
@@ -113,6 +127,7 @@ fn net_slice(settings: &Settings, filter: &Filter, slices: &[Slice], net: Fit) -
         fit: Some(net.with_border(border_world)),
         border_world,
         demand: Demand::Radius(radius_world),
+        is_known: true,
         is_net: true,
     }
 }

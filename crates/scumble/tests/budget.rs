@@ -6,7 +6,9 @@ use common::casters::cuboid;
 use common::gpu;
 use common::rig::{Point, Rig, camera_above, fixed, ground_and, sun_above};
 use glam::{DVec3, Vec3};
-use scumble::{Camera, Error, Filter, Light, MAPS_MAX, Options, Plan, Settings, Shadows, SizeChoice, Splits};
+use scumble::{
+    Camera, Error, Face, Filter, Keep, Light, MAPS_MAX, Options, Plan, Settings, Shadows, SizeChoice, Splits,
+};
 
 const MIB: u64 = 1 << 20;
 
@@ -67,8 +69,12 @@ fn is_packed(plan: &Plan, side: u32) -> bool {
 #[test]
 fn what_is_allocated_and_what_is_used_stay_under_the_budget_whatever_is_asked_for() {
     for bytes in [MIB / 4, 3 * MIB] {
-        for filter in [Filter::Pcss, Filter::Pcf { radius_world: 0.002 }, Filter::Vsm { radius_world: 0.02 }] {
-            let mut rig = Rig::new(budget(bytes), of_ten(Options { filter, ..Options::default() }), &scene());
+        for (filter, keep) in [
+            (Filter::Pcss, Keep::Nothing),
+            (Filter::Pcf { radius_world: 0.002 }, Keep::StaticLayers),
+            (Filter::Vsm { radius_world: 0.02 }, Keep::Nothing),
+        ] {
+            let mut rig = Rig::new(budget(bytes), of_ten(Options { filter, keep, ..Options::default() }), &scene());
             let allocated = rig.shadows.counters().map_bytes;
             assert!(allocated <= bytes && allocated > bytes * 9 / 10, "{filter:?}: {allocated} of {bytes}");
             for frame in 0..3 {
@@ -129,6 +135,32 @@ fn a_page_gives_one_map_what_others_leave() {
     let plan = rig.draw(&[sun_above(0.1)]);
     assert_eq!(plan.views().len(), 1);
     assert!(plan.texels() > MIB / 4 / 3, "{}", plan.texels());
+}
+
+#[test]
+fn what_comes_into_view_takes_little_before_it_is_measured() {
+    let mut rig = Rig::new(budget(4 * MIB), of_ten(Options::default()), &scene());
+    // The bulb's face that looks down, alone, and then the others and two more lights.
+    let [sun, bulb, spot] = lights();
+    // A metre of ground under the slab, with the penumbra of its edge.
+    rig.camera = Camera { vertical_fov: 0.7, ..camera_above(DVec3::new(-0.6, 0.0, 1.3)) };
+    rig.camera.near = 0.1;
+    rig.camera.eye.y = 1.4;
+    let alone = (0..4).map(|_| rig.draw_and_measure(&[bulb], 64)).last().expect("four frames");
+    assert!(alone.views().len() <= 2, "{}", alone.views().len());
+    let texel_of = |plan: &Plan, light: u32| {
+        let view = plan.views_of(light).find(|view| view.fit.face == Some(Face::NegativeY));
+        view.expect("it is still seen").texel_world().x
+    };
+    let before = texel_of(&alone, 0);
+    rig.camera = camera_above(DVec3::ZERO);
+    let wide = rig.draw(&[bulb, sun, spot]);
+    assert_eq!(wide.views().len(), 9);
+    // Faces that were never measured have the texel of the one that was, and lights that were not take nothing from it.
+    assert_eq!(wide.rungs_given_way(), 0);
+    assert!((texel_of(&wide, 0) / before - 1.0).abs() < 1e-6);
+    assert!(wide.views_of(0).all(|view| view.texel_world().x > 0.999 * before));
+    assert!(wide.views().iter().all(|view| view.light == 0 || view.texels() <= 256 * 256));
 }
 
 #[test]
