@@ -47,8 +47,8 @@ pub struct Options {
     pub maps: u32,
     /// Into how many slices the view of a directional light is cut, each with a map of its own box and size. Worth it
     /// outdoors, where the nearest contact asks for texels that the distance has no use for. Adaptive maps of two slices and
-    /// more follow the receivers that `measure` saw; the last of them is then a coarse net over the whole view, for what
-    /// appears before the next result.
+    /// more follow the receivers that `measure` saw where that makes them small; the last of them is then a coarse net over
+    /// the whole view, for what appears before the next result.
     pub cascades: Splits,
     /// What of the casters is kept; see [`Shadows::begin_static`](crate::Shadows::begin_static).
     pub keep: Keep,

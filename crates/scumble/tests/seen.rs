@@ -3,7 +3,7 @@
 mod common;
 
 use common::casters::{cuboid, quad};
-use common::rig::{Point, Rig, fixed};
+use common::rig::{Point, Rig, camera_above, fixed};
 use glam::{DVec2, DVec3, Vec3};
 use scumble::{Camera, Filter, Light, Options, Plan, Settings, Splits, View};
 
@@ -55,10 +55,11 @@ fn rig(options: Options) -> Rig {
     rig
 }
 
-/// The rig after it has measured what it sees from where it stands.
+/// The rig after it has measured what it sees from where it stands, and has followed it.
 fn rig_that_saw() -> Rig {
     let mut rig = rig(options());
     rig.draw_and_measure(&[tilted()], 256);
+    rig.draw(&[tilted()]);
     rig
 }
 
@@ -180,17 +181,20 @@ fn shader_and_plan_look_every_point_up_in_the_same_map() {
 fn nothing_is_without_its_shadow_while_the_camera_moves_ahead_of_its_results() {
     let mut rig = rig_that_saw();
     // A step aside of 0.7 m and a turn of 11 degrees show much that was hidden; the results stay those of before.
+    let mut with_net = 0;
     for (x, yaw) in [(2.2, 0.05), (1.8, -0.1), (2.7, 0.2), (1.5, 0.2)] {
         rig.camera = walker(x, yaw);
         let plan = rig.draw(&[tilted()]);
-        let (net, points) = (net(&plan), ground(&rig.camera));
+        with_net += usize::from(plan.views().iter().any(|view| view.is_net));
+        let points = ground(&rig.camera);
         let visibility = rig.visibility(&points);
         let mut dark = 0;
         for (point, &visibility) in points.iter().zip(&visibility) {
             // The shadow of the awning's edge, x = 0 at a height of 2 m, and of the wall's top, z = -10.5 at 6 m.
             let p = point.position.as_dvec3();
             let [awning_x, wall_z] = [2.0 * 0.3, -10.0 + 6.0 * 0.2 + 0.5];
-            let reach = net.radius_min_world.max(RADIUS_WORLD) + net.texel_world().max_element();
+            let reach = |view: &View| view.radius_min_world.max(RADIUS_WORLD) + view.texel_world().max_element();
+            let reach = plan.views().iter().map(reach).fold(0.0, f64::max);
             if p.x < awning_x - reach {
                 assert_eq!(visibility, 0.0, "{p} at {x} {yaw}");
                 dark += 1;
@@ -199,6 +203,20 @@ fn nothing_is_without_its_shadow_while_the_camera_moves_ahead_of_its_results() {
             }
         }
         assert!(dark > 100, "{dark}");
+    }
+    assert!(with_net >= 2, "{with_net}");
+}
+
+#[test]
+fn slices_follow_what_was_seen_only_where_that_is_worth_it() {
+    // From above, the box in the view is what is seen.
+    let mut rig = rig(options());
+    rig.camera = camera_above(DVec3::new(2.0, 0.0, 0.0));
+    let before = rig.draw_and_measure(&[tilted()], 256);
+    let after = rig.draw(&[tilted()]);
+    assert!(after.views().iter().all(|view| !view.is_net));
+    for (before, after) in before.views().iter().zip(after.views()) {
+        assert_eq!(before.depth_end, after.depth_end);
     }
 }
 
