@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use anyhow::{Context, Result};
-use scumble::{Aabb, Counters, Filter, Options, Plan, Settings, Shadows, SizeChoice};
+use scumble::{Aabb, Counters, Filter, Keep, Options, Plan, Settings, Shadows, SizeChoice};
 
 use crate::casters::CasterPass;
 use crate::cli::{Method, Size};
@@ -63,6 +63,11 @@ impl Variant {
     /// Allocates the map: at the cap of `settings` or the device's for an adaptive size, as large as it is used for a
     /// fixed one.
     pub fn new(stage: &Stage, gbuffer: &GBuffer, case: Case, settings: Settings) -> Result<Self> {
+        Self::keeping(Keep::Nothing, stage, gbuffer, case, settings)
+    }
+
+    /// The same, whose casters are drawn only when their map changes, unless nothing is kept.
+    pub fn keeping(keep: Keep, stage: &Stage, gbuffer: &GBuffer, case: Case, settings: Settings) -> Result<Self> {
         let Case { method, size, softness } = case;
         let filter = stage.setup.filter(method, softness);
         let device_limit = stage.gpu.device.limits().max_texture_dimension_2d;
@@ -82,6 +87,7 @@ impl Variant {
             maps: stage.setup.map_count(),
             cascades: stage.setup.cascades,
             measure_stride: MEASURE_STRIDE,
+            keep,
             ..Options::default()
         };
         let shadows = Shadows::with_options(&stage.gpu.device, settings, options)
@@ -143,8 +149,14 @@ impl Variant {
         let mut encoder = stage.gpu.encoder("frame");
         timer.start(&mut encoder);
         for view in plan.views() {
-            let matrix = self.casters.matrix(&stage.gpu, view.clip_from_world);
-            self.casters.draw(&mut self.shadows.begin(&mut encoder, view), &matrix, &stage.geometry);
+            let pass = match self.shadows.options().keep {
+                Keep::Nothing => Some(self.shadows.begin(&mut encoder, view)),
+                Keep::Maps | Keep::StaticLayers => self.shadows.begin_static(&mut encoder, view),
+            };
+            if let Some(mut pass) = pass {
+                let matrix = self.casters.matrix(&stage.gpu, view.clip_from_world);
+                self.casters.draw(&mut pass, &matrix, &stage.geometry);
+            }
         }
         timer.mark(&mut encoder, "depth");
         if let Filter::Vsm { .. } = self.filter {

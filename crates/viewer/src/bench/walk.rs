@@ -1,7 +1,8 @@
 //! `--paths`: an adaptive map while camera or light moves, and the largest fixed one beside it.
 //!
 //! Both maps see every frame, one after the other, so that a machine that gets busy does so for both. The sizes follow the
-//! drop-in's own policy, with its patience before a map shrinks.
+//! drop-in's own policy, with its patience before a map shrinks. After them comes the adaptive map once more, kept while it
+//! is right (`Keep::Maps`): how many depth passes that saves, and what it costs in texels.
 //!
 //! *Pop* and *shimmer* look at fixed points of the world, one of every [`POINT_STRIDE`] x [`POINT_STRIDE`] pixels that
 //! see a surface: at the beginning of the path, for `approach` at its end, where all that is seen was seen before. A `pan`
@@ -9,7 +10,7 @@
 //! time, so what changes is the map: its size (pop), its place (shimmer), or with `sweep` the light.
 
 use anyhow::{Context, Result};
-use scumble::Plan;
+use scumble::{Counters, Keep, Plan};
 use scumble_reference::{Pop, Shimmer, pop, shimmer};
 use serde::{Deserialize, Serialize};
 
@@ -59,6 +60,22 @@ pub struct WalkFrame {
     pub adaptive_ms: Option<f64>,
     /// Milliseconds of the fixed one.
     pub fixed_ms: Option<f64>,
+    /// The adaptive maps again, which are kept while they are right.
+    #[serde(default)]
+    pub kept: KeptFrame,
+}
+
+/// A frame of adaptive maps whose boxes are on steps, so that casters that stand still need not be drawn again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct KeptFrame {
+    /// Maps that were drawn.
+    pub drawn: u64,
+    /// Maps that were as they had to be.
+    pub skipped: u64,
+    /// Texels of all maps.
+    pub texels: u64,
+    /// Milliseconds of the whole shadow; null without timestamps.
+    pub ms: Option<f64>,
 }
 
 /// What changes at fixed points.
@@ -79,8 +96,8 @@ struct Walker {
 }
 
 impl Walker {
-    fn new(stage: &Stage, receivers: &GBuffer, case: Case) -> Result<Self> {
-        let mut variant = Variant::new(stage, receivers, case, moving_settings(&stage.setup))?;
+    fn new(keep: Keep, stage: &Stage, receivers: &GBuffer, case: Case) -> Result<Self> {
+        let mut variant = Variant::keeping(keep, stage, receivers, case, moving_settings(&stage.setup))?;
         variant.settle(stage, receivers, &mut Timer::new(&stage.gpu))?;
         Ok(Self { variant, last_ms: None, texels_world: Vec::new(), frames: Vec::new() })
     }
@@ -95,6 +112,17 @@ impl Walker {
             self.frames.push(thinned(&pixels, points.size_px));
         }
         Ok(())
+    }
+
+    /// What the last step did, of the counters before it.
+    fn frame_since(&self, before: &Counters) -> Result<KeptFrame> {
+        let counters = self.variant.counters();
+        Ok(KeptFrame {
+            drawn: counters.map_passes - before.map_passes,
+            skipped: counters.static_passes_skipped - before.static_passes_skipped,
+            texels: self.variant.plan()?.texels(),
+            ms: self.last_ms,
+        })
     }
 
     fn points(&self, seen: &[bool]) -> Result<Option<Points>> {
@@ -141,8 +169,9 @@ fn walk_path(stage: &mut Stage, size_px: [u32; 2], case: Case, fixed: Option<Siz
         None => Vec::new(),
     };
     let start = receivers_at(stage, size_px, poses[0])?;
-    let mut adaptive = Walker::new(stage, &start, case)?;
-    let mut beside = fixed.map(|size| Walker::new(stage, &start, Case { size, ..case })).transpose()?;
+    let mut adaptive = Walker::new(Keep::Nothing, stage, &start, case)?;
+    let mut kept = Walker::new(Keep::Maps, stage, &start, case)?;
+    let mut beside = fixed.map(|size| Walker::new(Keep::Nothing, stage, &start, Case { size, ..case })).transpose()?;
 
     // The path.
     let bar = progress(&format!("{name}: {} under {}", path.name, case.method.name()), u64::from(FRAMES));
@@ -158,6 +187,8 @@ fn walk_path(stage: &mut Stage, size_px: [u32; 2], case: Case, fixed: Option<Siz
         for walker in turns {
             walker.step(stage, &receivers, points.as_ref(), &mut timer)?;
         }
+        let before = kept.variant.counters();
+        kept.step(stage, &receivers, None, &mut timer)?;
         let plan = adaptive.variant.plan()?;
         let capped = plan.views().iter().any(|view| view.size.capped);
         frames.push(WalkFrame {
@@ -166,6 +197,7 @@ fn walk_path(stage: &mut Stage, size_px: [u32; 2], case: Case, fixed: Option<Siz
             capped,
             adaptive_ms: adaptive.last_ms,
             fixed_ms: beside.as_ref().and_then(|beside| beside.last_ms),
+            kept: kept.frame_since(&before)?,
         });
         bar.inc(1);
     }
@@ -208,6 +240,20 @@ impl Walk {
     pub fn time_ratios(&self) -> Vec<f64> {
         let ratio = |frame: &WalkFrame| Some(frame.adaptive_ms? / frame.fixed_ms.filter(|&fixed| fixed > 0.0)?);
         self.frames.iter().filter_map(ratio).collect()
+    }
+
+    /// Time of the kept maps over that of those drawn in every frame, of every frame that has both.
+    pub fn kept_time_ratios(&self) -> Vec<f64> {
+        let ratio = |frame: &WalkFrame| Some(frame.kept.ms? / frame.adaptive_ms.filter(|&drawn| drawn > 0.0)?);
+        self.frames.iter().filter_map(ratio).collect()
+    }
+
+    /// Maps that were drawn and maps that could stay, over all frames.
+    pub fn kept_passes(&self) -> [u64; 2] {
+        [
+            self.frames.iter().map(|frame| frame.kept.drawn).sum(),
+            self.frames.iter().map(|frame| frame.kept.skipped).sum(),
+        ]
     }
 
     /// Frames whose texels have another size than those of the frame before.

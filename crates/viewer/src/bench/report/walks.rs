@@ -7,15 +7,17 @@ pub fn table(walks: &[Walk]) -> String {
     let mut html = String::from(
         "<div class=wide><table><thead><tr><th>Scene<th>Filter<th>Path<th>Changes<br>of size<th>Change at<br>a change of size\
          <th>Change<br>without one<th>Shimmer,<br>adaptive<th>Shimmer,<br>fixed<th>Time over fixed,<br>median<th>slowest frame\
-         </thead><tbody>",
+         <th>Maps drawn<br>if kept<th>Time over<br>redrawn, median</thead><tbody>",
     );
     for walk in walks {
         let ratios = walk.time_ratios();
         let spread = crate::statistics::Spread::of(&ratios);
+        let kept = crate::statistics::Spread::of(&walk.kept_time_ratios());
+        let [drawn, skipped] = walk.kept_passes();
         let most = ratios.iter().copied().fold(f64::NAN, f64::max);
         let points = walk.adaptive_points.as_ref();
         html += &format!(
-            "<tr><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}",
+            "<tr><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{drawn} of {}<td>{}",
             walk.key.scene,
             walk.key.filter(),
             walk.path,
@@ -26,11 +28,14 @@ pub fn table(walks: &[Walk]) -> String {
             share(walk.fixed_points.as_ref().map(shimmer)),
             spread.map_or("-".into(), |spread| format!("{:.2}", spread.median)),
             if most.is_nan() { "-".into() } else { format!("{most:.2}") },
+            drawn + skipped,
+            kept.map_or("-".into(), |spread| format!("{:.2}", spread.median)),
         );
     }
     html + "</tbody></table></div><p class=note>Changes are those of the visibility at fixed points of the world between two \
             frames (root mean square); shimmer is its standard deviation over the frames. With <b>sweep</b> the light moves, so \
-            that they hold its motion too. A point sees the same kernel all the time.</p>"
+            that they hold its motion too. A point sees the same kernel all the time. The last two columns are of adaptive maps whose boxes are \
+            on steps, so that a map is drawn only when the view has left its box.</p>"
 }
 
 fn shimmer(points: &Points) -> f64 {
