@@ -33,23 +33,29 @@ fn shadow_search_radius(map: u32, receiver_depth: f32) -> f32 {
 }
 
 // Map depths in front of the receiver's tangent plane within `radius_plane`, one texel a tap.
-fn shadow_find_blockers(map: u32, receiver: ShadowReceiver, radius_plane: f32, rotation: mat2x2f) -> ShadowBlockers {
-    let viewport = shadow_lights.maps[map].viewport_texels;
-    let origin = vec2i(shadow_lights.maps[map].origin_texels);
-    let layer = shadow_lights.maps[map].layer;
+fn shadow_find_blockers(
+    map: u32,
+    receiver: ShadowReceiver,
+    kernel: ShadowKernel,
+    radius_plane: f32,
+    rotation: mat2x2f,
+) -> ShadowBlockers {
+    let fraction = shadow_depth_fraction(map);
+    let share_from_tap = receiver.depth_share * rotation;
+    let origin = vec2i(kernel.origin);
+    let last = kernel.viewport - 1.0;
     var count = 0u;
     var sum = 0.0;
     for (var i = 0u; i < SHADOW_BLOCKER_TAPS; i++) {
         let pair = shadow_taps.blocker[i / 2u];
-        let tap = select(pair.xy, pair.zw, (i & 1u) == 1u);
-        let offset = radius_plane * (rotation * tap);
-        let texel = receiver.texel + offset * shadow_lights.maps[map].texel_from_plane;
-        let place = vec2i(clamp(texel, vec2f(0.0), viewport - 1.0)) + origin;
-        let depth = textureLoad(shadow_depths, place, layer, 0).x;
-        let is_inside = all(texel >= vec2f(0.0)) && all(texel < viewport);
-        if is_inside && depth < shadow_depth_at(receiver, offset) {
+        let tap = radius_plane * select(pair.xy, pair.zw, (i & 1u) == 1u);
+        let texel = kernel.texel + kernel.texel_from_tap * tap;
+        let place = vec2i(clamp(texel, vec2f(0.0), last)) + origin;
+        let depth = textureLoad(shadow_depths, place, kernel.layer, 0).x;
+        let is_inside = all(texel >= vec2f(0.0)) && all(texel < kernel.viewport);
+        if is_inside && depth < shadow_tap_depth(kernel, tap) {
             count += 1u;
-            sum += shadow_light_depth(map, depth) * (1.0 + dot(receiver.depth_share, offset));
+            sum += shadow_light_depth(fraction, depth) * (1.0 + dot(share_from_tap, tap));
         }
     }
     return ShadowBlockers(count, select(receiver.light_depth, sum / f32(max(count, 1u)), count > 0u));

@@ -28,14 +28,18 @@ struct ShadowReceiver {
     depth_share: vec2f,
 }
 
-// Light-space depth of a map depth.
-fn shadow_light_depth(map: u32, map_depth: f32) -> f32 {
+// Light-space depth of a map depth d is (x + y d) / (z + w d) of these.
+fn shadow_depth_fraction(map: u32) -> vec4f {
     let near = shadow_lights.maps[map].depth_near;
     let far = shadow_lights.maps[map].depth_far;
     if shadow_lights.maps[map].is_spot == 1u {
-        return near * far / (far - map_depth * (far - near));
+        return vec4f(near * far, 0.0, far, near - far);
     }
-    return near + map_depth * (far - near);
+    return vec4f(near, far - near, 1.0, 0.0);
+}
+
+fn shadow_light_depth(fraction: vec4f, map_depth: f32) -> f32 {
+    return (fraction.x + fraction.y * map_depth) / (fraction.z + fraction.w * map_depth);
 }
 
 // -n_xy / along, no longer than `longest`, also where the surface is seen edge-on.
@@ -80,9 +84,4 @@ fn shadow_receiver(map: u32, position_world: vec3f, normal_world: vec3f) -> Shad
         + shadow_lights.maps[map].bias_slope_texels * (abs(tangent.x) + abs(tangent.y));
     receiver.bias = depth_per_length * (texel * bias_texels + shadow_lights.maps[map].bias_rounding_world);
     return receiver;
-}
-
-// Map depth to compare with at an offset from the receiver, world length at the reference plane.
-fn shadow_depth_at(receiver: ShadowReceiver, offset: vec2f) -> f32 {
-    return min(receiver.depth + dot(receiver.slope, offset), 1.0) - receiver.bias;
 }

@@ -20,7 +20,7 @@ fn shadow_filter_of(map: u32) -> u32 {
 fn shadow_filtered(map: u32, receiver: ShadowReceiver, frag_coord: vec2f) -> ShadowSample {
     let kind = shadow_filter_of(map);
     if kind == SHADOW_FILTER_HARD {
-        let visibility = shadow_tap_at(map, receiver, vec2f(0.0));
+        let visibility = shadow_hard(map, receiver);
         return ShadowSample(visibility, 0.0, u32(visibility < 1.0));
     }
 
@@ -35,20 +35,21 @@ fn shadow_filtered(map: u32, receiver: ShadowReceiver, frag_coord: vec2f) -> Sha
     if shadow_lights.maps[map].is_sphere == 1u {
         rotation = shadow_stretch(receiver.ray) * rotation;
     }
+    let kernel = shadow_kernel(map, receiver, rotation);
     if kind == SHADOW_FILTER_PCF {
         let radius = shadow_lights.maps[map].radius_world;
-        let visibility = shadow_pcf(map, receiver, radius, rotation);
+        let visibility = shadow_pcf(kernel, radius);
         return ShadowSample(visibility, radius, u32(round((1.0 - visibility) * f32(SHADOW_PCF_TAPS))));
     }
 
     let radius_min = shadow_lights.maps[map].radius_min_world;
     let search = max(shadow_search_radius(map, receiver.light_depth), radius_min);
-    let blockers = shadow_find_blockers(map, receiver, search, rotation);
+    let blockers = shadow_find_blockers(map, receiver, kernel, search, rotation);
     if blockers.count == 0u {
         return ShadowSample(1.0, 0.0, 0u);
     }
     let radius = shadow_filter_radius(map, receiver.light_depth, blockers.mean_depth);
-    let visibility = shadow_pcf(map, receiver, max(radius, radius_min), rotation);
+    let visibility = shadow_pcf(kernel, max(radius, radius_min));
     return ShadowSample(visibility, radius, blockers.count);
 }
 
@@ -94,7 +95,7 @@ fn shadow_visibility(light: u32, position_world: vec3f, normal_world: vec3f, fra
     if kind == SHADOW_FILTER_PCF || kind == SHADOW_FILTER_PCSS {
         let block = shadow_block(light, vec2u(frag_coord));
         if block == SHADOW_BLOCK_LIT || block == SHADOW_BLOCK_UMBRA {
-            let visibility = shadow_tap_at(map, receiver, vec2f(0.0));
+            let visibility = shadow_hard(map, receiver);
             if visibility == select(0.0, 1.0, block == SHADOW_BLOCK_LIT) {
                 return visibility;
             }

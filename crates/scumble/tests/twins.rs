@@ -131,8 +131,9 @@ fn the_receiver_plane_is_that_of_the_cpu() {
         let body = format!(
             "let receiver = shadow_receiver(0u, row.a.xyz, row.b.xyz);
              let offset = {radius:e} * vec2f(0.6, -0.8);
-             let unbiased = shadow_depth_at(receiver, offset) + receiver.bias;
-             result = vec4f(receiver.texel, shadow_light_depth(0u, unbiased), receiver.bias);"
+             let kernel = shadow_kernel(0u, receiver, mat2x2f(1.0, 0.0, 0.0, 1.0));
+             let unbiased = shadow_tap_depth(kernel, offset) + receiver.bias;
+             result = vec4f(receiver.texel, shadow_light_depth(shadow_depth_fraction(0u), unbiased), receiver.bias);"
         );
         for (point, [x, y, depth, bias]) in points.iter().zip(rig.evaluate(&body, &points)) {
             let (position, normal) = (point.position.as_dvec3(), point.normal.as_dvec3());
