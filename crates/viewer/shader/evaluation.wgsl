@@ -1,6 +1,5 @@
-// The visibility of the light at every receiver, by the drop-in's own function. Prepend gbuffer_read.wgsl and the text
-// of
-// `Shadows::shadow_wgsl(1)`. Pixels without a surface get 1.
+// The visibility of the light at every receiver, by the drop-in's own function. Prepend gbuffer_read.wgsl and the text of
+// `shadow_wgsl(1)`. Pixels without a surface get 1.
 
 @fragment
 fn evaluate(@builtin(position) frag_coord: vec4f) -> @location(0) f32 {

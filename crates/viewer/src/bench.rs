@@ -8,6 +8,7 @@
 //! Each row is on the disk when it is done ([`partial`]), so that a run that was killed goes on.
 
 mod against;
+mod cell;
 mod column;
 mod comparison;
 mod demand;
@@ -16,28 +17,30 @@ mod edges;
 #[cfg(test)]
 mod examples;
 mod markdown;
+mod pair;
 mod partial;
 mod pictures;
 mod record;
-mod reference;
 mod report;
 mod row;
 mod scene;
 mod sweep;
 mod trade;
+mod violation;
 mod walk;
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 use scumble_reference::LightTruth;
 
 use crate::bench::against::changes;
 use crate::bench::column::{descriptions, table};
 use crate::bench::markdown::{MARKDOWN_MARK, markdown};
+use crate::bench::pair::pairs;
 use crate::bench::partial::{Header, Partial};
 use crate::bench::record::{BenchRecord, OptionsRecord, SCHEMA};
-use crate::bench::reference::pairs;
 use crate::bench::report::{REPORT_MARK, report};
 use crate::bench::scene::{bench_scene, is_finished, rows_of_scene, walk_scene};
 use crate::bench::trade::trades;
@@ -51,32 +54,19 @@ use crate::setup::{Setup, assets};
 use crate::stage::Stage;
 use crate::truth::Store;
 
-/// Where the results go.
-struct Results {
-    table: PathBuf,
-    record: PathBuf,
-    report: PathBuf,
-    markdown: PathBuf,
-}
+/// Why the whole catalogue may be nothing.
+const NO_SCENE: &str = "no scene of the catalogue has its models here: `scumble-viewer scenes` says what is absent";
 
 /// Runs the command.
 pub fn run(options: &Bench) -> Result<()> {
     // Everything that can be refused is refused before the first frame.
-    let is_complete = !options.sizes.is_empty() && !options.methods.is_empty() && !options.softness.is_empty();
-    ensure!(is_complete, "--sizes, --methods and --softness need one entry at least");
     let (samples, allowed) = (options.light_samples(), LightTruth::SAMPLES);
     ensure!(allowed.contains(&samples), "--light-samples {samples}: one of {allowed:?} is allowed");
     let old = options.against.as_deref().map(BenchRecord::read).transpose()?;
     let conditions = conditions(options);
     let setups = open_scenes(options, &conditions)?;
-    let Some(ratio) = setups.first().map(RatioRecord::of) else { return Ok(()) };
-    make_directory(&options.out)?;
-    let results = Results {
-        table: claim(&options.out.join("bench.csv"), Kind::Csv)?,
-        record: claim(&options.out.join("bench.json"), Kind::Json(SCHEMA))?,
-        report: claim(&options.out.join("report.html"), Kind::Html(REPORT_MARK))?,
-        markdown: claim(&options.out.join("bench.md"), Kind::Markdown(MARKDOWN_MARK))?,
-    };
+    let ratio = RatioRecord::of(setups.first().context(NO_SCENE)?);
+    let results = Results::claim(&options.out)?;
     let store = Store::new(options.cache.as_deref())?;
     let gpu = Gpu::open()?;
     let machine = MachineRecord::of(&gpu);
@@ -89,11 +79,12 @@ pub fn run(options: &Bench) -> Result<()> {
     let rows = progress("rows", count as u64);
     rows.set_position(partial.rows().len() as u64);
     partial.rows().iter().for_each(|row| say(format_args!("{row}  (of the run before)")));
-    for setup in
-        setups.into_iter().filter(|setup| !is_finished(options, &partial, &setup.scene.name)).collect::<Vec<_>>()
-    {
+    let size_px = [conditions.width, conditions.height];
+    for setup in setups {
+        if is_finished(options, &partial, &setup.scene.name) {
+            continue;
+        }
         let mut stage = Stage::new(gpu.clone(), setup)?;
-        let size_px = [conditions.width, conditions.height];
         bench_scene(options, size_px, &stage, &store, &mut partial, &rows)?;
         walk_scene(options, size_px, &mut stage, &mut partial)?;
     }
@@ -111,19 +102,53 @@ pub fn run(options: &Bench) -> Result<()> {
         walks: partial.walks().to_vec(),
         sweep: partial.sweep().to_vec(),
     };
-    write(&results.table, table(&record.options, &record.rows)?.as_bytes())?;
-    write_json(&results.record, &record)?;
-    write(&results.report, report(&record, &options.out)?.as_bytes())?;
-    write(&results.markdown, markdown(&record).as_bytes())?;
+    results.write(&record)?;
     partial.remove()?;
     pairs(&record.rows).iter().for_each(|pair| println!("{pair}"));
     trades(&record.rows).iter().for_each(|trade| println!("{trade}"));
-    println!("{}, {}, {}", results.table.display(), results.record.display(), results.markdown.display());
-    println!("Report: {}", results.report.display());
+    println!("{results}");
     if let Some(old) = old {
         println!("{}", changes(&old, &record)?);
     }
     Ok(())
+}
+
+/// Where the results go.
+struct Results {
+    folder: PathBuf,
+    table: PathBuf,
+    record: PathBuf,
+    report: PathBuf,
+    markdown: PathBuf,
+}
+
+impl Results {
+    /// In a folder, which is made if missing.
+    fn claim(folder: &Path) -> Result<Self> {
+        make_directory(folder)?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            table: claim(&folder.join("bench.csv"), Kind::Csv)?,
+            record: claim(&folder.join("bench.json"), Kind::Json(SCHEMA))?,
+            report: claim(&folder.join("report.html"), Kind::Html(REPORT_MARK))?,
+            markdown: claim(&folder.join("bench.md"), Kind::Markdown(MARKDOWN_MARK))?,
+        })
+    }
+
+    fn write(&self, record: &BenchRecord) -> Result<()> {
+        write(&self.table, table(&record.options, &record.rows)?.as_bytes())?;
+        write_json(&self.record, record)?;
+        write(&self.report, report(record, &self.folder)?.as_bytes())?;
+        write(&self.markdown, markdown(record).as_bytes())
+    }
+}
+
+impl fmt::Display for Results {
+    /// The paths, the report on a line of its own.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let tables = [&self.table, &self.record, &self.markdown].map(|path| path.display().to_string());
+        write!(formatter, "{}\nReport: {}", tables.join(", "), self.report.display())
+    }
 }
 
 /// Makes the report of a folder's record anew.

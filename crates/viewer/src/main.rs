@@ -27,6 +27,7 @@ mod scenes;
 mod setup;
 mod shading;
 mod shot;
+mod size;
 mod stage;
 mod statistics;
 mod timer;

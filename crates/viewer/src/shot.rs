@@ -6,11 +6,12 @@ use anyhow::Result;
 use scumble::Light;
 use serde::Serialize;
 
-use crate::cli::{Shot, Size};
+use crate::cli::Shot;
 use crate::device::Gpu;
 use crate::output::{claim_with_record, write_json, write_png};
 use crate::record::{MachineRecord, MapRecord, RatioRecord};
 use crate::setup::Setup;
+use crate::size::Size;
 use crate::stage::Stage;
 use crate::statistics::Spread;
 use crate::timer::Timer;

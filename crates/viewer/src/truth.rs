@@ -28,6 +28,7 @@ pub use store::Store;
 
 /// Samples per pixel of the picture along x and along y.
 const PICTURE_SAMPLES_PER_SIDE: u32 = 2;
+
 /// Runs the command.
 pub fn run(options: &Truth) -> Result<()> {
     let conditions = &options.view.conditions;

@@ -6,12 +6,13 @@ use anyhow::{Context, Result};
 use scumble::{Aabb, Counters, Filter, Keep, Options, Plan, Settings, Shadows, SizeChoice};
 
 use crate::casters::CasterPass;
-use crate::cli::{Method, Size};
+use crate::cli::Method;
 use crate::evaluation::{EvaluationPass, Output};
 use crate::gbuffer::GBuffer;
 use crate::readback::read_texture;
 use crate::record::MapRecord;
 use crate::setup::Setup;
+use crate::size::Size;
 use crate::stage::Stage;
 use crate::timer::{Timer, Times};
 

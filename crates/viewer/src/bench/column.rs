@@ -2,9 +2,11 @@
 //! cells and the documentation cannot part. Numbers that were not measured are empty cells.
 
 use anyhow::{Context, Result};
-use scumble_reference::Differences;
+use scumble_reference::{Differences, HIDDEN_TILT_DEG};
 use serde::{Deserialize, Serialize};
 
+use crate::bench::comparison::GRAIN_RADIUS_PX;
+use crate::bench::edges::{LENGTH_MIN_PX, PENUMBRA_PX};
 use crate::bench::record::OptionsRecord;
 use crate::bench::row::Row;
 use crate::statistics::Spread;
@@ -15,7 +17,7 @@ const PARTS: [(&str, &str); 6] = [
     ("moments", "filtering the map, vsm only"),
     ("demand", "demand pass, which a fixed size has not"),
     ("evaluation", "filter at every pixel"),
-    ("total", "the three together"),
+    ("total", "depth, moments, demand and evaluation together"),
     ("drawing", "receivers and shading, which no size changes"),
 ];
 
@@ -163,7 +165,7 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         ),
         column(
             "penumbra_noise_rms",
-            "the part of `penumbra_rms` that differs between neighbours of 5 x 5 pixels",
+            &format!("the part of `penumbra_rms` that differs between neighbours of {0} x {0} pixels", 2 * GRAIN_RADIUS_PX + 1),
             Box::new(|row| number(some_of(row, row.comparison.parts.noise_rms))),
         ),
         column(
@@ -178,7 +180,10 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         ),
         column(
             "edge_length_px",
-            "pixels of true edges on even surfaces in penumbrae of 8 pixels and more; this and the next four are empty below 100",
+            &format!(
+                "pixels of true edges on even surfaces in penumbrae of {PENUMBRA_PX} pixels and more; this and the next four are \
+                 empty below {LENGTH_MIN_PX}"
+            ),
             Box::new(|row| number(row.comparison.edges.map(|edges| edges.length_px))),
         ),
         column(
@@ -198,7 +203,7 @@ pub fn columns(options: &OptionsRecord) -> Vec<Column> {
         ),
         column(
             "edge_tilt_visible_share",
-            "share of their length that is tilted by more than the 8.2 degrees that observers miss",
+            &format!("share of their length that is tilted by more than the {HIDDEN_TILT_DEG} degrees that observers miss"),
             Box::new(|row| number(row.comparison.edges.map(|edges| edges.tilt_visible_share))),
         ),
     ]);

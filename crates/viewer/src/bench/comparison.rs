@@ -2,27 +2,23 @@
 //!
 //! *Lit-facing* pixels turn their geometric normal towards the light and lie in its cone: the others are dark whatever
 //! the map says. *Penumbra* pixels are those of them whose true visibility is neither 0 nor 1: there the texels show.
-//! The *violation share* is the share of penumbra pixels whose filter is narrower than c texels of the map where a
-//! texel is also larger than the pixel: there the relation says that texels are seen.
 
 use anyhow::Result;
-use scumble::scumble_core::pixel_footprint_world;
-use scumble::{Light, Settings};
+use scumble::Light;
 use scumble_reference::{
     Differences, ErrorParts, Estimate, FLIP_PIXELS_PER_DEGREE, differences, error_parts, flip, penumbra,
 };
 use serde::{Deserialize, Serialize};
 
 use crate::bench::edges::{EdgeTruth, Edges};
-use crate::cli::Method;
+use crate::bench::violation::violation_share;
 use crate::gbuffer::Surface;
 use crate::stage::Stage;
 use crate::variant::Variant;
 
-/// Half the window in which errors that differ are grain: 5 x 5 pixels.
-const GRAIN_RADIUS_PX: usize = 2;
-/// Rounding that does not make a radius of exactly c texels a violation.
-const VIOLATION_SLACK: f64 = 1e-4;
+/// Half the window in which errors that differ are grain, without the pixel itself: the larger of the two usual ones of
+/// [`error_parts`], 5 x 5 pixels.
+pub const GRAIN_RADIUS_PX: usize = 2;
 
 /// What the pixels of a picture show, rows from top to bottom.
 pub struct Screen {
@@ -124,32 +120,6 @@ fn faces(light: &Light, surface: &Surface) -> bool {
         Light::Spot { direction, cone_half_angle, .. } => -to_light.dot(direction.normalize()) > cone_half_angle.cos(),
     };
     is_in_cone && to_light.dot(surface.normal.as_dvec3()) > 0.0
-}
-
-/// Share of the filtered penumbra whose demand, by the setup's relation, the map that a pixel reads does not meet.
-fn violation_share(
-    stage: &Stage,
-    variant: &Variant,
-    screen: &Screen,
-    penumbra: &[bool],
-    radii: &[f32],
-) -> Result<Option<f64>> {
-    let plan = variant.plan()?;
-    let settings = Settings { relation: stage.setup.relation, ..variant.settings().clone() };
-    let camera = &stage.setup.scene.camera;
-    let (mut count, mut violations) = (0u64, 0u64);
-    for ((surface, &radius), _) in screen.surfaces.iter().zip(radii).zip(penumbra).filter(|(_, inside)| **inside) {
-        let Some(position) = surface.filter(|_| radius > 0.0).map(|it| it.position.as_dvec3()) else { continue };
-        let Some(view) = plan.view_at(0, position) else { continue };
-        let needed = settings.relation.radius_from_texel(view.texel_world().max_element()) * (1.0 - VIOLATION_SLACK);
-        // Only PCSS widens what is narrower than its least radius.
-        let radius_least = if variant.case.method == Method::Pcss { view.radius_min_world } else { 0.0 };
-        let footprint = pixel_footprint_world(camera, &view.fit, position, screen.size_px[1]);
-        let demand = settings.demand_radius_world(f64::from(radius).max(radius_least), footprint);
-        count += 1;
-        violations += u64::from(demand < needed);
-    }
-    Ok((count > 0).then(|| violations as f64 / count as f64))
 }
 
 #[cfg(test)]

@@ -10,8 +10,8 @@
 use std::collections::BTreeMap;
 
 use anyhow::Result;
-use scumble::Settings;
 use scumble::scumble_core::pixel_footprint_world;
+use scumble::{Plan, Settings, View};
 use serde::{Deserialize, Serialize};
 
 use crate::bench::comparison::Screen;
@@ -36,15 +36,9 @@ impl DemandHistogram {
     /// Of the penumbra under a variant; `radii` are those of the filter before its lower clamp.
     pub fn of(stage: &Stage, variant: &Variant, screen: &Screen, penumbra: &[bool], radii: &[f32]) -> Result<Self> {
         let mut bins = BTreeMap::new();
-        let plan = variant.plan()?;
-        let settings = Settings { relation: stage.setup.relation, ..variant.settings().clone() };
-        let camera = &stage.setup.scene.camera;
-        let pixels = screen.surfaces.iter().zip(radii).zip(penumbra).filter(|(_, inside)| **inside);
-        for ((surface, &radius), _) in pixels {
-            let Some(position) = surface.filter(|_| radius > 0.0).map(|it| it.position.as_dvec3()) else { continue };
-            let Some(view) = plan.view_at(0, position) else { continue };
-            let footprint = pixel_footprint_world(camera, &view.fit, position, screen.size_px[1]);
-            let demand = settings.demand_radius_world(f64::from(radius), footprint);
+        let settings = settings_of_run(stage, variant);
+        for pixel in asked(stage, variant.plan()?, screen, penumbra, radii) {
+            let demand = settings.demand_radius_world(pixel.radius_world, pixel.footprint_world);
             *bins.entry(bin(settings.relation.texel_from_radius(demand))).or_default() += 1;
         }
         Ok(Self { key: Key::of(&stage.setup.scene.name, &variant.case), bins: bins.into_iter().collect() })
@@ -54,6 +48,39 @@ impl DemandHistogram {
     pub fn texel_world(bin: i32) -> f64 {
         (f64::from(bin) / BINS_PER_OCTAVE).exp2()
     }
+}
+
+/// A pixel of the penumbra under the map that it reads.
+pub struct Asked<'a> {
+    /// The map.
+    pub view: &'a View,
+    /// Radius of the filter before its lower clamp, metres at the reference plane.
+    pub radius_world: f64,
+    /// Width of the pixel, metres at the reference plane.
+    pub footprint_world: f64,
+}
+
+/// The pixels of the penumbra that are filtered and have a map, with what they ask of it.
+pub fn asked<'a>(
+    stage: &'a Stage,
+    plan: &'a Plan,
+    screen: &'a Screen,
+    penumbra: &'a [bool],
+    radii: &'a [f32],
+) -> impl Iterator<Item = Asked<'a>> {
+    let camera = &stage.setup.scene.camera;
+    let pixels = screen.surfaces.iter().zip(radii).zip(penumbra).filter(|(_, inside)| **inside);
+    pixels.filter_map(move |((surface, &radius), _)| {
+        let position = surface.filter(|_| radius > 0.0)?.position.as_dvec3();
+        let view = plan.view_at(0, position)?;
+        let footprint_world = pixel_footprint_world(camera, &view.fit, position, screen.size_px[1]);
+        Some(Asked { view, radius_world: f64::from(radius), footprint_world })
+    })
+}
+
+/// The settings of a variant under the relation of the run, which judges all sizes.
+pub fn settings_of_run(stage: &Stage, variant: &Variant) -> Settings {
+    Settings { relation: stage.setup.relation, ..variant.settings().clone() }
 }
 
 fn bin(texel_world: f64) -> i32 {

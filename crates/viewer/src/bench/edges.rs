@@ -21,13 +21,13 @@ use crate::gbuffer::Surface;
 /// Surfaces that bend by more from pixel to pixel bend their shadows, too: the tilt that observers miss.
 const EVEN_DEG: f32 = HIDDEN_TILT_DEG as f32;
 /// Least width of a penumbra.
-const PENUMBRA_PX: f32 = 8.0;
+pub const PENUMBRA_PX: f32 = 8.0;
 /// Standard deviation of the smoothing: a quarter of the narrowest penumbra.
 const SMOOTHING_PX: f32 = PENUMBRA_PX / 4.0;
 /// Where the Gaussian ends, in standard deviations.
 const SMOOTHING_REACH: f32 = 2.5;
 /// Shortest edge of which something is said.
-const LENGTH_MIN_PX: f64 = 100.0;
+pub const LENGTH_MIN_PX: f64 = 100.0;
 
 /// Edges of a picture against the true ones.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

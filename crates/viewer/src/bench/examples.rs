@@ -7,7 +7,7 @@ use scumble_reference::{Differences, ErrorParts};
 use crate::bench::comparison::Comparison;
 use crate::bench::record::{BenchRecord, OptionsRecord, SCHEMA};
 use crate::bench::row::{Key, Row};
-use crate::record::{MachineRecord, RatioRecord};
+use crate::record::{MachineRecord, MapRecord, RatioRecord};
 use crate::statistics::Spread;
 
 /// A row of a total time, spread by one per cent to both sides, and an error in the penumbra.
@@ -36,6 +36,24 @@ pub fn row(scene: &str, method: &str, size: &str, total_ms: f64, error: f64) -> 
             violation_share: Some(0.0),
         },
         pictures: BTreeMap::new(),
+    }
+}
+
+/// A map of a light across a metre, with so many texels in use.
+pub fn map([width, height]: [u32; 2], capped: bool) -> MapRecord {
+    MapRecord {
+        light: 0,
+        slice: 0,
+        depth_end_world: None,
+        net: false,
+        size: [width, height],
+        viewport: [0, 0, width, height],
+        extent_world: [1.0, 1.0],
+        c_effective: 3.47,
+        radius_min_world: 0.01,
+        capped,
+        resting: false,
+        blocks: None,
     }
 }
 

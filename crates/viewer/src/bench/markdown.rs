@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
+use crate::bench::cell::{number, percent, ratio};
+use crate::bench::pair::{Pair, pairs};
 use crate::bench::record::BenchRecord;
-use crate::bench::reference::{Pair, pairs};
 use crate::bench::row::Row;
-use crate::bench::trade::{Place, Trade, trades};
+use crate::bench::trade::{Trade, trades};
 use crate::statistics::Spread;
 
 /// By this a run knows the tables of a former one.
@@ -29,37 +30,46 @@ pub fn markdown(record: &BenchRecord) -> String {
         record.ratio.source,
         options.cap,
     );
-    page += "\n## Adaptive against fixed\n\n| scene | filter | fixed | adaptive | texels, times fewer | time | of it, size | RMS error, \
-             penumbra | against the light | frame rate |";
-    // One fixed size is no curve.
-    let trades = trades(&record.rows);
-    page += match trades.is_empty() {
-        true => "\n|---|---|---|---|---|---|---|---|---|---|\n",
-        false => " error in equal time | time for equal error |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-    };
     let pairs = pairs(&record.rows);
-    for pair in &pairs {
-        page += &ratios(pair, record);
-        if !trades.is_empty() {
-            page += &places(trades.iter().find(|trade| trade.key == pair.adaptive.key));
-        }
-        page.push('\n');
+    if !pairs.is_empty() {
+        page += &against_fixed(&pairs, record);
     }
-    page += "\nAll ratios are adaptive over fixed. *Of it, size*: over a fixed map that skips filters as the adaptive one does. \
-             *Frame rate*: with receivers and shading.";
-    if !trades.is_empty() {
-        page += " The last two are over the curve of all fixed sizes.";
-    }
-    if let Some(share) = pairs.iter().find_map(|pair| pair.adaptive.key.share()) {
-        let _ = write!(page, " *@{share}*: that share of the penumbra's pixels, the narrowest, may show texels.");
-    }
-    page += "\n\n## All sizes\n\n\
+    page += "\n## All sizes\n\n\
              | scene | filter | size | texels | million | depth, ms | moments, ms | demand, ms | evaluation, ms | total, ms | RMS, penumbra | 99 % | \
              against the light | tilted edges | violation |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for row in &record.rows {
         page += &line(row);
     }
     page
+}
+
+fn against_fixed(pairs: &[Pair<'_>], record: &BenchRecord) -> String {
+    let mut table = String::from(
+        "\n## Adaptive against fixed\n\n| scene | filter | fixed | adaptive | texels, times fewer | time | of it, size | RMS error, \
+         penumbra | against the light | frame rate |",
+    );
+    // One fixed size is no curve.
+    let trades = trades(&record.rows);
+    table += match trades.is_empty() {
+        true => "\n|---|---|---|---|---|---|---|---|---|---|\n",
+        false => " error in equal time | time for equal error |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+    };
+    for pair in pairs {
+        table += &ratios(pair, record);
+        if !trades.is_empty() {
+            table += &places(trades.iter().find(|trade| trade.key == pair.adaptive.key));
+        }
+        table.push('\n');
+    }
+    table += "\nAll ratios are adaptive over fixed. *Of it, size*: over a fixed map that skips filters as the adaptive one does. \
+              *Frame rate*: with receivers and shading.";
+    if !trades.is_empty() {
+        table += " The last two are over the curve of all fixed sizes.";
+    }
+    if let Some(share) = pairs.iter().find_map(|pair| pair.adaptive.key.share()) {
+        let _ = write!(table, " *@{share}*: that share of the penumbra's pixels, the narrowest, may show texels.");
+    }
+    table + "\n"
 }
 
 fn ratios(pair: &Pair<'_>, record: &BenchRecord) -> String {
@@ -71,27 +81,18 @@ fn ratios(pair: &Pair<'_>, record: &BenchRecord) -> String {
         pair.adaptive.sizes_words(),
         if pair.adaptive.is_capped() { " (cap)" } else { "" },
         pair.fewer_texels(),
-        two_digits(pair.time_ratio()),
-        two_digits(pair.time_ratio_of_size(&record.rows)),
-        two_digits(pair.error_ratio()),
-        two_digits(pair.light_error_ratio()),
-        two_digits(pair.frame_rate_ratio()),
+        ratio(pair.time_ratio()),
+        ratio(pair.time_ratio_of_size(&record.rows)),
+        ratio(pair.error_ratio()),
+        ratio(pair.light_error_ratio()),
+        ratio(pair.frame_rate_ratio()),
     )
 }
 
 /// The last cells of a row of ratios.
 fn places(trade: Option<&Trade>) -> String {
-    let place = |place: Option<Place>, below: &str, above: &str| match place {
-        None => "-".to_owned(),
-        Some(Place::Ratio(ratio)) => format!("{ratio:.2}"),
-        Some(Place::BelowAll) => below.to_owned(),
-        Some(Place::AboveAll) => above.to_owned(),
-    };
-    format!(
-        " {} | {} |",
-        place(trade.map(|trade| trade.error_at_equal_time), "faster than all", "slower than all"),
-        place(trade.map(|trade| trade.time_at_equal_error), "finer than all", "coarser than all"),
-    )
+    let words = |of: fn(&Trade) -> String| trade.map_or("-".into(), of);
+    format!(" {} | {} |", words(Trade::error_words), words(Trade::time_words))
 }
 
 fn line(row: &Row) -> String {
@@ -112,22 +113,16 @@ fn line(row: &Row) -> String {
             None => write!(line, " - |"),
         };
     }
-    let percent = |share: Option<f64>| share.map_or("-".into(), |share| format!("{:.0} %", 100.0 * share));
-    let penumbra = (row.key.method != "none").then_some(&row.comparison.penumbra);
     let _ = writeln!(
         line,
         " {} | {} | {} | {} | {} |",
-        penumbra.map_or("-".into(), |error| format!("{:.4}", error.rms)),
-        penumbra.map_or("-".into(), |error| format!("{:.3}", error.p99)),
-        row.light_error().map_or("-".into(), |error| format!("{error:.4}")),
+        number(row.error(), 4),
+        number(row.penumbra().map(|error| error.p99), 3),
+        number(row.light_error(), 4),
         percent(row.comparison.edges.map(|edges| edges.tilt_visible_share)),
         percent(row.comparison.violation_share),
     );
     line
-}
-
-fn two_digits(ratio: Option<f64>) -> String {
-    ratio.map_or("-".into(), |ratio| format!("{ratio:.2}"))
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use crate::truth::spread;
 use crate::variant::Variant;
 
 /// Error of the shadow fraction that has the full colour in the error maps.
-const ERROR_FULL_SCALE: f32 = 0.25;
+pub const ERROR_FULL_SCALE: f32 = 0.25;
 
 /// Names and paths of pictures.
 pub type Files = Vec<(&'static str, PathBuf)>;

@@ -2,6 +2,7 @@
 
 mod demands;
 mod figure;
+mod numbers;
 mod pareto;
 mod paths;
 mod pictures;
@@ -12,13 +13,14 @@ mod walks;
 use std::path::Path;
 
 use anyhow::Result;
+use scumble_reference::HIDDEN_TILT_DEG;
 
+use crate::bench::edges::PENUMBRA_PX;
+use crate::bench::pair::pairs;
 use crate::bench::record::BenchRecord;
-use crate::bench::reference::pairs;
 use crate::bench::report::figure::color;
 use crate::bench::row::Row;
 use crate::bench::trade::trades;
-use crate::statistics::Spread;
 
 /// By this a run knows the report of a former one.
 pub const REPORT_MARK: &str = "<meta name=\"generator\" content=\"scumble-viewer bench\">";
@@ -27,50 +29,49 @@ const STYLE: &str = include_str!("report/report.css");
 
 /// The whole page; `out` is the results folder, where the pictures are.
 pub fn report(record: &BenchRecord, out: &Path) -> Result<String> {
-    let pairs = pairs(&record.rows);
-    let filters = distinct(record.rows.iter().filter(|row| row.key.method != "none").map(|row| row.key.filter()));
+    let (rows, scenes) = (&record.rows, &record.options.scenes);
+    let pairs = pairs(rows);
     let mut page = format!(
         "<!doctype html>\n<html lang=en><head><meta charset=utf-8>\n\
          <meta name=viewport content='width=device-width, initial-scale=1'>\n{REPORT_MARK}\n\
          <title>What accuracy each millisecond buys</title>\n<style>{STYLE}</style></head>\n<body><main>\n{}",
         head(record)
     );
-    page += &summary::summary(&record.rows, &pairs, &trades(&record.rows));
-    page += &section(
-        "Time against error",
-        "Lines join the fixed sizes of a filter; the diamond is the adaptive size with the quartiles of its time; dashed, the \
-         time of a hard shadow, one lookup a pixel. Squares are fixed sizes that skip filters as the adaptive one does. Left and below is better. The error is that of the shadow \
-         fraction in the penumbra against the same filter over the exact hard shadow, by rays.",
-        &(legend(&filters)
-            + &pareto::pareto(&record.rows, &record.options.scenes, &filters, "RMS error, penumbra", Row::error)?),
-    );
-    let of_light = distinct(record.rows.iter().filter(|row| row.light_error().is_some()).map(|row| row.key.filter()));
-    if !of_light.is_empty() {
-        let axis = "RMS error against the light, penumbra";
-        let figure = pareto::pareto(&record.rows, &record.options.scenes, &of_light, axis, Row::light_error)?;
+    page += &summary::summary(rows, &pairs, &trades(rows));
+    let filters = filters_with(rows, Row::error);
+    if !filters.is_empty() {
         page += &section(
-            "Against the light itself",
+            "Time against error",
             &format!(
-                "The same times; the error is that against the share of the light's area that a point sees, by {} rays a pixel, \
-                 so that it holds what the filter does beside what the texels do. Percentage-closer filtering with a fixed \
-                 radius stands for no light and is left out.",
-                record.options.light_samples
+                "{} Left and below is better. The error is that of the shadow fraction in the penumbra against the same filter \
+                 over the exact hard shadow, by rays.",
+                pareto::marks(rows)
             ),
-            &(legend(&of_light) + &figure),
+            &(legend(&filters) + &pareto::pareto(rows, scenes, &filters, "RMS error, penumbra", Row::error)?),
         );
     }
-    page += &section(
-        "What it looks like",
-        "Choose a label: the pictures lie over one another.",
-        &pictures::pictures(&pairs, out)?,
-    );
-    page += &section(
-        "What the screen asks for",
-        "For every pixel of the penumbra the largest texel that its filter hides, or that a pixel covers, as a length where the \
-         light measures it (for a lamp its near plane); lines are the texels \
-         of the maps. Pixels left of a line see texels of that map, unless it is at its cap and pcss widens their filters.",
-        &demands::demands(&record.demand, &pairs)?,
-    );
+    let of_light = filters_with(rows, Row::light_error);
+    if !of_light.is_empty() {
+        let axis = "RMS error against the light, penumbra";
+        page += &section(
+            "Against the light itself",
+            &against_the_light(record),
+            &(legend(&of_light) + &pareto::pareto(rows, scenes, &of_light, axis, Row::light_error)?),
+        );
+    }
+    if !pairs.is_empty() {
+        let words = "Choose a label: the pictures lie over one another.";
+        page += &section("What it looks like", words, &pictures::pictures(&pairs, out)?);
+    }
+    if record.demand.iter().any(|histogram| !histogram.bins.is_empty()) {
+        page += &section(
+            "What the screen asks for",
+            "For every pixel of the penumbra the largest texel that its filter hides, or that a pixel covers, as a length where \
+             the light measures it (for a lamp its near plane); lines are the texels of the maps. Pixels left of a line see \
+             texels of that map, unless it is at its cap and pcss widens their filters.",
+            &demands::demands(&record.demand, rows)?,
+        );
+    }
     if !record.walks.is_empty() {
         let figure = paths::paths(&record.walks, &record.options.paths, record.options.cap)?;
         page += &section(
@@ -80,36 +81,57 @@ pub fn report(record: &BenchRecord, out: &Path) -> Result<String> {
         );
     }
     if !record.sweep.is_empty() {
-        let ratio = &record.ratio;
-        let figure = ratios::ratios(&record.sweep, &record.options.scenes, &record.options.methods, ratio)?;
-        page += &section(
-            "Which ratio",
-            &format!(
-                "Adaptive maps chosen by other ratios. A violation is a pixel of the penumbra whose filter is narrower than {} \
-                 texels, the ratio of this run, shown with its interval. An edge is tilted visibly above 8.2 degrees, on even \
-                 surfaces and in penumbrae of 8 pixels and more. Hollow points are at the cap, where soft shadows narrower \
-                 than the map can hide are widened.",
-                ratio.value
-            ),
-            &(legend(&record.options.scenes) + &figure),
-        );
+        let figure = ratios::ratios(&record.sweep, scenes, &record.options.methods, &record.ratio)?;
+        page += &section("Which ratio", &which_ratio(record), &(legend(scenes) + &figure));
     }
-    page += &section("All numbers", "", &numbers(&record.rows));
+    page += &section("All numbers", "", &numbers::table(rows));
     page += &foot(record);
     Ok(page + "</main></body></html>\n")
 }
 
+/// The filters that have a time and an error, which a figure of both can show.
+fn filters_with(rows: &[Row], error: fn(&Row) -> Option<f64>) -> Vec<String> {
+    let shown = rows.iter().filter(|row| row.total_ms().is_some() && error(row).is_some());
+    distinct(shown.map(|row| row.key.filter()))
+}
+
 fn head(record: &BenchRecord) -> String {
     let options = &record.options;
+    let has_times = record.rows.iter().any(|row| row.total_ms().is_some());
     format!(
         "<h1>What accuracy each millisecond buys</h1><p class=lead>Shadow maps of fixed sizes against maps sized by what a viewer \
-         can see: a filter hides texels when its radius is {:.2} of them ({}). {} pixels, medians of {} frames that took turns, \
-         on {}.</p>",
+         can see: a filter hides texels when its radius is {:.2} of them ({}). {} x {} pixels, {} on {}.</p>",
         record.ratio.value,
         if record.ratio.source == "published" { "Kreuzer 2017".into() } else { escaped(&record.ratio.source) },
-        format_args!("{} x {}", options.width, options.height),
-        options.frames,
+        options.width,
+        options.height,
+        if has_times { format!("medians of {} frames that took turns,", options.frames) } else { "no times:".into() },
         escaped(&record.machine.device),
+    )
+}
+
+fn against_the_light(record: &BenchRecord) -> String {
+    let is_left_out = |row: &&Row| row.comparison.light.is_none();
+    let left_out = distinct(record.rows.iter().filter(is_left_out).map(|row| row.key.method.clone()));
+    let words = match &left_out[..] {
+        [] => String::new(),
+        methods => format!(" Left out: {}, whose radius is that of no light.", methods.join(", ")),
+    };
+    format!(
+        "The same times; the error is that against the share of the light's area that a point sees, by {} rays a pixel, so that \
+         it holds what the filter does beside what the texels do.{words}",
+        record.options.light_samples
+    )
+}
+
+fn which_ratio(record: &BenchRecord) -> String {
+    let is_capped = record.sweep.iter().any(|point| point.capped);
+    format!(
+        "Adaptive maps chosen by other ratios. A violation is a pixel of the penumbra whose filter is narrower than {} texels, the \
+         ratio of this run, shown with its interval. An edge is tilted visibly above {HIDDEN_TILT_DEG} degrees, on even surfaces \
+         and in penumbrae of {PENUMBRA_PX} pixels and more.{}",
+        record.ratio.value,
+        if is_capped { " Hollow points had fewer texels than their ratio asks for: they are at the cap." } else { "" }
     )
 }
 
@@ -125,52 +147,6 @@ fn legend(names: &[String]) -> String {
         format!("<span style='--hue:rgb({red} {green} {blue})'>{}</span>", escaped(name))
     };
     format!("<p class=legend>{}</p>", names.iter().enumerate().map(entry).collect::<String>())
-}
-
-fn numbers(rows: &[Row]) -> String {
-    let mut html = String::from(
-        "<div class=wide><table><thead><tr><th>Scene<th>Filter<th>Size<th>Maps<th>Texels<th>Depth, ms<th>Moments, ms<th>Demand, ms\
-         <th>Evaluation, ms<th>Total, ms<th>RMS, penumbra<th>99 %<th>Largest<th>Bias<th>RMS, lit sides<th>RMS, light<th>Tilted edges<th>Violation</thead><tbody>",
-    );
-    for row in rows {
-        let time = |part: &str| match row.times_ms.get(part) {
-            Some(Spread { median, lower_quartile, upper_quartile }) => {
-                format!("{median:.1} <small>({lower_quartile:.1} to {upper_quartile:.1})</small>")
-            }
-            None => "-".into(),
-        };
-        let penumbra = &row.comparison.penumbra;
-        let of_filter = match row.error() {
-            Some(rms) => {
-                format!("<td>{rms:.4}<td>{:.3}<td>{:.2}<td>{:+.4}", penumbra.p99, penumbra.max, penumbra.bias)
-            }
-            None => "<td>-".repeat(4),
-        };
-        let class = if row.key.is_adaptive() { "adaptive" } else { "" };
-        html += &format!(
-            "<tr class='{class}'><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}{of_filter}<td>{:.4}\
-             <td>{}<td>{}<td>{}",
-            escaped(&row.key.scene),
-            row.key.filter(),
-            row.key.size,
-            row.sizes_words(),
-            row.texels,
-            time("depth"),
-            time("moments"),
-            time("demand"),
-            time("evaluation"),
-            time("total"),
-            row.comparison.lit_facing.rms,
-            row.light_error().map_or("-".into(), |error| format!("{error:.4}")),
-            percent(row.comparison.edges.map(|edges| edges.tilt_visible_share)),
-            percent(row.comparison.violation_share),
-        );
-    }
-    html + "</tbody></table></div>"
-}
-
-fn percent(share: Option<f64>) -> String {
-    share.map_or("-".into(), |share| format!("{:.0} %", 100.0 * share))
 }
 
 fn foot(record: &BenchRecord) -> String {
@@ -206,6 +182,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::comparison::LightComparison;
     use crate::bench::examples;
 
     #[test]
@@ -218,5 +195,33 @@ mod tests {
         assert!(page.contains(REPORT_MARK) && page.contains("a &lt;device&gt;"));
         assert!(!page.contains("src='http") && !page.contains("href="));
         assert_eq!(page.matches("<tr class='").count(), 4);
+        assert!(page.contains("Dashed: the time of a hard shadow") && !page.contains("Squares"), "{page}");
+    }
+
+    #[test]
+    fn what_was_not_measured_has_no_figure() {
+        let mut rows = vec![examples::row("yard", "pcf", "2048", 9.0, 0.1)];
+        rows[0].times_ms.clear();
+        for rows in [rows, vec![]] {
+            let page = report(&examples::record(rows), Path::new("nowhere")).unwrap();
+            assert!(
+                page.contains("no times: on a device") && !page.contains("<svg") && page.contains("All numbers"),
+                "{page}"
+            );
+        }
+    }
+
+    #[test]
+    fn filters_whose_radius_is_no_lights_are_named_where_they_are_left_out() {
+        let mut rows = Vec::from(["none", "pcf", "pcss"].map(|method| examples::row("yard", method, "2048", 9.0, 0.1)));
+        let penumbra = rows[0].comparison.penumbra;
+        for row in [0, 2] {
+            let light = LightComparison { lit_facing: penumbra, penumbra, standard_error: 0.01 };
+            rows[row].comparison.light = Some(light);
+        }
+        let words = |rows: &[Row]| against_the_light(&examples::record(rows.to_vec()));
+        assert!(words(&rows).contains("Left out: pcf, whose radius is that of no light."), "{}", words(&rows));
+        rows.remove(1);
+        assert!(!words(&rows).contains("Left out"));
     }
 }

@@ -6,12 +6,13 @@ use std::path::Path;
 
 use anyhow::Result;
 use scumble::Statistic;
+use scumble_reference::Differences;
 use serde::{Deserialize, Serialize};
 
 use crate::bench::comparison::Comparison;
 use crate::bench::pictures::Files;
-use crate::cli::Size;
 use crate::record::MapRecord;
+use crate::size::Size;
 use crate::stage::Stage;
 use crate::statistics::Spread;
 use crate::timer::Times;
@@ -221,15 +222,20 @@ impl Row {
         self.times_ms.get("total").map(|spread| spread.median)
     }
 
-    /// RMS error in the penumbra; `None` where the filter leaves none.
-    pub fn error(&self) -> Option<f64> {
-        let penumbra = &self.comparison.penumbra;
-        (penumbra.pixels > 0).then_some(penumbra.rms)
+    /// Errors in the penumbra; `None` where the filter leaves none.
+    pub fn penumbra(&self) -> Option<&Differences> {
+        Some(&self.comparison.penumbra).filter(|penumbra| penumbra.pixels > 0)
     }
 
-    /// RMS error in the penumbra against the light itself.
+    /// RMS error in the penumbra.
+    pub fn error(&self) -> Option<f64> {
+        self.penumbra().map(|penumbra| penumbra.rms)
+    }
+
+    /// RMS error against the light itself, where it is seen in part; `None` where it nowhere is.
     pub fn light_error(&self) -> Option<f64> {
-        self.comparison.light.as_ref().map(|light| light.penumbra.rms)
+        let light = self.comparison.light.as_ref()?;
+        (light.penumbra.pixels > 0).then_some(light.penumbra.rms)
     }
 }
 
@@ -246,8 +252,7 @@ impl fmt::Display for Row {
         if let Some(total) = self.total_ms() {
             write!(formatter, "  {total:>7.1} ms")?;
         }
-        let penumbra = &self.comparison.penumbra;
-        if penumbra.pixels > 0 {
+        if let Some(penumbra) = self.penumbra() {
             write!(formatter, "  penumbra RMS {:.4} p99 {:.3} bias {:+.4}", penumbra.rms, penumbra.p99, penumbra.bias)?;
         }
         if let Some(error) = self.light_error() {

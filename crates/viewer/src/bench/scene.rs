@@ -13,10 +13,11 @@ use crate::bench::pictures::Pictures;
 use crate::bench::row::{Key, Row, Timings};
 use crate::bench::sweep::sweep;
 use crate::bench::walk::walk;
-use crate::cli::{Bench, Method, Motion, Size};
+use crate::cli::{Bench, Method, Motion};
 use crate::gbuffer::GBuffer;
 use crate::output::make_directory;
 use crate::progress::{progress, say};
+use crate::size::Size;
 use crate::stage::Stage;
 use crate::timer::Timer;
 use crate::truth::{Samples, Source, Store};
@@ -231,9 +232,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_largest_fixed_size_is_the_fixed_one() {
+    fn the_fixed_size_that_adaptive_ones_are_set_beside_is_the_fixed_one() {
         let sizes = [Size::Fixed([512, 512]), Size::Adaptive(Statistic::default()), Size::Fixed([1024, 2048])];
         assert_eq!(sizes.map(|size| label(size, &sizes)), ["fixed-512", "adaptive", "fixed"]);
+        let usual = [Size::Fixed([4096; 2]), Size::Fixed([2048; 2]), Size::Blocks([2048; 2])];
+        assert_eq!(usual.map(|size| label(size, &usual)), ["fixed-4096", "fixed", "fixed-2048+blocks"]);
     }
 
     #[test]

@@ -11,14 +11,15 @@ use scumble::{Settings, Statistic};
 use serde::{Deserialize, Serialize};
 
 use crate::bench::comparison::{Screen, Truths, compare};
-use crate::cli::{Method, Size};
+use crate::cli::Method;
 use crate::gbuffer::GBuffer;
+use crate::size::Size;
 use crate::stage::Stage;
 use crate::timer::Timer;
 use crate::variant::{Case, Variant, still_settings};
 
-/// Texels per filter radius, in steps of about a third of an octave from the smallest kernel that filters at all to three
-/// times the published ratio, which is among them.
+/// Texels per filter radius, from a kernel as wide as a texel to three times the published ratio, which is among them; in
+/// steps of a half to a third of an octave, smaller ones where people's thresholds lie.
 const RATIOS: [f64; 12] = [0.5, 0.75, 1.0, 1.4, 2.0, 2.5, 3.0, 3.47, 4.2, 5.5, 7.5, 10.0];
 
 /// An adaptive map chosen by one ratio.

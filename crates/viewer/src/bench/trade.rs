@@ -51,7 +51,28 @@ pub enum Verdict {
     Elsewhere,
 }
 
+impl Place {
+    /// The ratio, or on which side it lies.
+    pub fn words(self, below: &str, above: &str) -> String {
+        match self {
+            Self::Ratio(ratio) => format!("{ratio:.2}"),
+            Self::BelowAll => below.into(),
+            Self::AboveAll => above.into(),
+        }
+    }
+}
+
 impl Trade {
+    /// The error at equal time, for a table.
+    pub fn error_words(&self) -> String {
+        self.error_at_equal_time.words("faster than all", "slower than all")
+    }
+
+    /// The time at equal error, for a table.
+    pub fn time_words(&self) -> String {
+        self.time_at_equal_error.words("finer than all", "coarser than all")
+    }
+
     /// The time decides where the curve has the adaptive error, else the error where it has the adaptive time.
     pub fn verdict(&self) -> Verdict {
         match (self.time_at_equal_error, self.error_at_equal_time) {

@@ -1,4 +1,4 @@
-//! `--paths`: an adaptive map while camera or light moves, and the largest fixed one beside it.
+//! `--paths`: an adaptive map while camera or light moves, and the fixed one that it is set beside ([`Size::beside`]).
 //!
 //! Both maps see every frame, one after the other, so that a machine that gets busy does so for both. The sizes follow the
 //! drop-in's own policy, with its patience before a map shrinks. After them comes the adaptive map once more, kept while it
@@ -15,10 +15,11 @@ use scumble_reference::{Pop, Shimmer, pop, shimmer};
 use serde::{Deserialize, Serialize};
 
 use crate::bench::row::Key;
-use crate::cli::{Motion, Size};
+use crate::cli::Motion;
 use crate::gbuffer::GBuffer;
 use crate::progress::progress;
 use crate::readback::read_texture;
+use crate::size::Size;
 use crate::stage::Stage;
 use crate::timer::Timer;
 use crate::variant::{Case, Variant, moving_settings};

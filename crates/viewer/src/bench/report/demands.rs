@@ -6,7 +6,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::bench::demand::DemandHistogram;
-use crate::bench::reference::Pair;
+use crate::bench::pair::fixed_beside;
 use crate::bench::report::figure::{
     Area, DrawError, GREY, GRID, INK, color, log_range, log_ticks, panels, short, text,
 };
@@ -17,14 +17,15 @@ const COLUMNS: usize = 3;
 /// Millimetres of a metre.
 const MILLI: f64 = 1000.0;
 
-/// Draws the figure; `pairs` tell which texels the maps have.
-pub fn demands(histograms: &[DemandHistogram], pairs: &[Pair<'_>]) -> Result<String> {
+/// Draws the figure; `rows` tell which texels the maps have: those of adaptive sizes, and of the fixed one beside them.
+pub fn demands(histograms: &[DemandHistogram], rows: &[Row]) -> Result<String> {
     let histograms: Vec<&DemandHistogram> = histograms.iter().filter(|histogram| !histogram.bins.is_empty()).collect();
     panels("What the screen asks for", histograms.len(), COLUMNS, |index, panel| {
         let histogram = histograms[index];
-        let pair = pairs.iter().find(|pair| pair.adaptive.key.is_beside(&histogram.key));
-        let rows = pair.map_or_else(Vec::new, |pair| vec![(pair.fixed, GREY), (pair.adaptive, color(1))]);
-        draw_panel(panel, histogram, &rows)
+        let adaptive = rows.iter().filter(|row| row.key.is_adaptive() && row.key.is_beside(&histogram.key));
+        let fixed = fixed_beside(rows, &histogram.key).map(|row| (row, GREY));
+        let drawn: Vec<_> = fixed.into_iter().chain(adaptive.map(|row| (row, color(1)))).collect();
+        draw_panel(panel, histogram, &drawn)
     })
 }
 

@@ -1,6 +1,6 @@
-//! The trade in one look: time against error, one panel a scene. The fixed sizes of a filter are joined, the adaptive one is
-//! a diamond with its quartiles, and with its share where texels may show; squares are fixed sizes that skip filters as adaptive ones do; a dashed line is the time of
-//! the hard shadow. Left and below is better.
+//! The trade in one look: time against error, one panel a scene. The fixed sizes of a filter are joined, adaptive ones are
+//! diamonds with their quartiles, and with their share where texels may show; squares are fixed sizes that skip filters as
+//! adaptive ones do; a dashed line is the time of the hard shadow. Left and below is better.
 
 use anyhow::Result;
 use plotters::prelude::*;
@@ -10,7 +10,7 @@ use crate::bench::report::figure::{
     Area, DrawError, GREY, GRID, INK, color, log_range, log_ticks, panels, short, text,
 };
 use crate::bench::row::Row;
-use crate::cli::Size;
+use crate::size::Size;
 
 /// Panels in a row.
 const COLUMNS: usize = 3;
@@ -24,17 +24,37 @@ pub fn pareto(
     error: impl Fn(&Row) -> Option<f64>,
 ) -> Result<String> {
     let of_scene = |scene: &str| -> Vec<&Row> {
-        rows.iter().filter(|row| row.key.scene == scene && error(row).is_some()).collect()
+        let is_shown = |row: &&Row| row.total_ms().is_some() && error(row).is_some();
+        rows.iter().filter(|row| row.key.scene == scene).filter(is_shown).collect()
     };
     let drawn: Vec<&String> = scenes.iter().filter(|scene| !of_scene(scene).is_empty()).collect();
     panels("Time against error", drawn.len(), COLUMNS, |index, panel| {
-        let hard = rows.iter().filter(|row| row.key.scene == *drawn[index] && row.key.method == "none");
-        let hard: Vec<&Row> = hard.collect();
-        let sizes: Vec<Size> = hard.iter().filter_map(|row| row.key.size()).collect();
-        let beside = Size::beside(&sizes);
-        let hard = hard.into_iter().find(|row| row.key.size() == beside).and_then(Row::total_ms);
+        let hard = hard_ms(rows, drawn[index]);
         draw_panel(panel, drawn[index], &of_scene(drawn[index]), filters, axis, hard, &error)
     })
+}
+
+/// What the marks of the figure are, those that it has.
+pub fn marks(rows: &[Row]) -> String {
+    let has = |is: fn(&Row) -> bool| rows.iter().any(is);
+    let marks = [
+        (has(|row| row.key.is_fixed()), "Lines join the fixed sizes of a filter."),
+        (has(|row| row.key.is_adaptive()), "Diamonds are adaptive sizes with the quartiles of their time."),
+        (
+            has(|row| matches!(row.key.size(), Some(Size::Blocks(_)))),
+            "Squares are fixed sizes that skip filters as adaptive ones do.",
+        ),
+        (has(|row| row.key.method == "none"), "Dashed: the time of a hard shadow, one lookup a pixel."),
+    ];
+    marks.iter().filter(|(is_there, _)| *is_there).map(|(_, words)| *words).collect::<Vec<_>>().join(" ")
+}
+
+/// The time of the hard shadow from the size that adaptive ones are set beside.
+fn hard_ms(rows: &[Row], scene: &str) -> Option<f64> {
+    let hard: Vec<&Row> = rows.iter().filter(|row| row.key.scene == scene && row.key.method == "none").collect();
+    let sizes: Vec<Size> = hard.iter().filter_map(|row| row.key.size()).collect();
+    let beside = Size::beside(&sizes);
+    hard.into_iter().find(|row| row.key.size() == beside).and_then(Row::total_ms)
 }
 
 fn draw_panel(

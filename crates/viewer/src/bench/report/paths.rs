@@ -9,8 +9,10 @@ use crate::bench::walk::Walk;
 
 /// Panels in a row.
 const COLUMNS: usize = 3;
+/// Of the frames at the cap one in so many has its point, so that the line stays visible.
+const CAPPED_STRIDE: usize = 6;
 
-/// Draws the figure: a colour for each of `paths`; `cap` is the most texels a side.
+/// Draws the figure: a colour for each of `paths`; `cap` is the most texels a side of each map.
 pub fn paths(walks: &[Walk], paths: &[String], cap: u32) -> Result<String> {
     let mut shown: Vec<(String, String)> = Vec::new();
     for walk in walks {
@@ -54,8 +56,10 @@ fn draw_panel(panel: &Area<'_>, title: &str, walks: &[&Walk], paths: &[String], 
         .label_style(text(13, INK))
         .axis_desc_style(text(14, INK))
         .draw()?;
-    if f64::from(cap) < 1.15 * most {
-        let line = [(0.0, f64::from(cap)), (count as f64, f64::from(cap))];
+    let maps = walks.iter().flat_map(|walk| &walk.frames).map(|frame| frame.texels_world.len()).max().unwrap_or(1);
+    let cap = side(maps as u64 * u64::from(cap).pow(2));
+    if cap < 1.15 * most {
+        let line = [(0.0, cap), (count as f64, cap)];
         chart.draw_series(DashedLineSeries::new(line, 4, 4, GREY.into()))?;
         chart.draw_series([EmptyElement::at(line[0]) + Text::new("cap", (4, -15), text(12, GREY))])?;
     }
@@ -64,7 +68,7 @@ fn draw_panel(panel: &Area<'_>, title: &str, walks: &[&Walk], paths: &[String], 
         let places =
             || walk.frames.iter().enumerate().map(|(at, frame)| ((at as f64, side(frame.texels)), frame.capped));
         chart.draw_series(LineSeries::new(places().map(|(at, _)| at), hue.stroke_width(2)))?;
-        let capped = places().filter(|(_, capped)| *capped).step_by(6);
+        let capped = places().filter(|(_, capped)| *capped).step_by(CAPPED_STRIDE);
         chart.draw_series(capped.map(|(at, _)| Circle::new(at, 3, hue.stroke_width(1))))?;
     }
     Ok(())

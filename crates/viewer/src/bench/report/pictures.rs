@@ -9,7 +9,11 @@ use base64::encode;
 use image::ImageFormat;
 use image::codecs::jpeg::JpegEncoder;
 
-use crate::bench::reference::Pair;
+use crate::bench::cell::number;
+use crate::bench::pair::Pair;
+use crate::bench::pictures::ERROR_FULL_SCALE;
+use crate::bench::report::escaped;
+use crate::bench::row::Row;
 
 /// JPEG quality at which texels of a shadow's edge keep their contrast.
 const QUALITY: u8 = 92;
@@ -45,32 +49,38 @@ fn figure(index: usize, pair: &Pair<'_>, names: &str, out: &Path) -> Result<Stri
     let (mut tabs, mut images) = (String::new(), String::new());
     for (view, (row, picture, label)) in views.iter().enumerate() {
         let Some(name) = row.pictures.get(*picture) else { continue };
+        let path = out.join(name);
+        let url = if *picture == "error_map" { as_it_is(&path)? } else { as_jpeg(&path)? };
         let checked = if view == 1 { " checked" } else { "" };
         tabs += &format!(
             "<input type=radio name=p{index} id=p{index}v{view} class=v{view}{checked}><label for=p{index}v{view}>{label}</label>"
         );
-        images +=
-            &format!("<img loading=lazy class=v{view} alt='{key}: {label}' src='{}'>", embedded(&out.join(name))?);
+        images += &format!("<img loading=lazy class=v{view} alt='{}: {label}' src='{url}'>", escaped(&key.to_string()));
     }
-    let errors = |row: &crate::bench::row::Row| format!("{:.4}", row.comparison.penumbra.rms);
+    let error = |row: &Row| number(row.error(), 4);
     Ok(format!(
-        "<figure class=views><h3>{} under {names}: {:.0} times fewer texels</h3>{tabs}<div>{images}</div>\
+        "<figure class=views><h3>{} under {names}: {:.1} times fewer texels</h3>{tabs}<div>{images}</div>\
          <figcaption>RMS error in the penumbra: fixed {}, adaptive {}. Error maps: red too bright, blue too dark, full colour \
-         at 0.25 of the light.</figcaption></figure>",
-        key.scene,
+         at {ERROR_FULL_SCALE} of the light.</figcaption></figure>",
+        escaped(&key.scene),
         pair.fewer_texels(),
-        errors(pair.fixed),
-        errors(pair.adaptive),
+        error(pair.fixed),
+        error(pair.adaptive),
     ))
 }
 
-/// A picture as a URL that holds it.
-fn embedded(path: &Path) -> Result<String> {
-    let bytes = fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
-    if path.to_string_lossy().contains("error") {
-        return Ok(format!("data:image/png;base64,{}", encode(bytes)));
-    }
-    let picture = image::load_from_memory_with_format(&bytes, ImageFormat::Png)
+fn read(path: &Path) -> Result<Vec<u8>> {
+    fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))
+}
+
+/// A URL that holds a PNG picture.
+fn as_it_is(path: &Path) -> Result<String> {
+    Ok(format!("data:image/png;base64,{}", encode(read(path)?)))
+}
+
+/// A URL that holds a PNG picture in less space.
+fn as_jpeg(path: &Path) -> Result<String> {
+    let picture = image::load_from_memory_with_format(&read(path)?, ImageFormat::Png)
         .with_context(|| format!("{}: is no whole PNG picture", path.display()))?;
     let mut jpeg = Vec::new();
     JpegEncoder::new_with_quality(&mut jpeg, QUALITY)
@@ -83,7 +93,7 @@ fn embedded(path: &Path) -> Result<String> {
 mod tests {
     use super::*;
     use crate::bench::examples::row;
-    use crate::bench::reference::pairs;
+    use crate::bench::pair::pairs;
 
     #[test]
     fn a_share_that_changes_nothing_has_no_picture_of_its_own() {

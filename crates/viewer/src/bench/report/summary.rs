@@ -2,54 +2,92 @@
 
 use std::fmt::Write;
 
-use crate::bench::reference::Pair;
+use crate::bench::cell::ratio;
+use crate::bench::pair::Pair;
 use crate::bench::report::figure::short;
+use crate::bench::report::{distinct, escaped};
 use crate::bench::row::Row;
 use crate::bench::trade::{Place, Trade, Verdict};
 
 /// The sentences and the table of ratios.
 pub fn summary(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
-    let verdict = |wanted: Verdict| trades.iter().filter(move |trade| trade.verdict() == wanted);
-    let mut html = String::from("<div class=verdicts>");
-    let texels = span(pairs.iter().map(Pair::fewer_texels), 0, 1);
-    let times = span(pairs.iter().filter_map(Pair::time_ratio), 2, 2);
-    let errors = span(pairs.iter().filter_map(Pair::error_ratio), 2, 2);
-    let capped = match pairs.iter().filter(|pair| pair.adaptive.is_capped()).count() {
-        0 => String::new(),
-        count => {
-            format!(" In {count} of {} cases the map is at its cap: narrow soft shadows are widened.", pairs.len())
-        }
+    if pairs.is_empty() {
+        return "<p>No adaptive map stands beside a fixed one in this run: that takes a soft filter, an adaptive size and a \
+                fixed one.</p>"
+            .into();
+    }
+    let verdicts = [
+        ("Texels and time", texels_and_time(pairs)),
+        ("Accuracy", accuracy(pairs)),
+        ("Where it does not pay", where_it_does_not_pay(rows, trades)),
+    ];
+    let boxes: String =
+        verdicts.iter().map(|(title, words)| format!("<div><h3>{title}</h3><p>{words}</p></div>")).collect();
+    format!("<div class=verdicts>{boxes}</div>{}", table(rows, pairs, trades))
+}
+
+fn texels_and_time(pairs: &[Pair<'_>]) -> String {
+    let fixed = distinct(pairs.iter().map(|pair| pair.fixed.key.size.clone())).join(" or ");
+    let is_larger = pairs.iter().any(|pair| pair.fewer_texels() < 1.0);
+    let below_1 = if is_larger { " (below 1: more)" } else { "" };
+    let texels = span(pairs.iter().map(Pair::fewer_texels), 0, 1).unwrap_or_default();
+    let time = match span(pairs.iter().filter_map(Pair::time_ratio), 2, 2) {
+        Some(times) => format!("and a shadow that takes <b>{times}</b> of their time."),
+        None => "of times nothing is known: the device has no timestamps.".into(),
     };
-    let size = pairs.first().map_or_else(String::new, |pair| pair.fixed.key.size.clone());
-    let _ = write!(
-        html,
-        "<div><h3>What you win</h3><p><b>{texels}</b> times fewer texels than a fixed map of {size}, and a shadow that \
-         takes <b>{times}</b> of its time.</p></div>\
-         <div><h3>What you lose</h3><p>The error in the penumbra is <b>{errors}</b> of the fixed map's: the texels are as \
-         large as the filter hides, no smaller.{capped}</p></div>"
-    );
-    let failing: Vec<String> = verdict(Verdict::DoesNotPay).map(name).collect();
-    let paying = verdict(Verdict::Pays).count();
-    let _ = write!(html, "<div><h3>When it does not pay</h3><p>");
-    html += &match (trades.len(), failing.len()) {
+    format!("<b>{texels}</b> times fewer texels{below_1} than fixed maps of {fixed}, {time}")
+}
+
+fn accuracy(pairs: &[Pair<'_>]) -> String {
+    let Some(errors) = span(pairs.iter().filter_map(Pair::error_ratio), 2, 2) else {
+        return "Nothing is known of errors: no penumbra is on screen.".into();
+    };
+    let capped: Vec<&Pair<'_>> = pairs.iter().filter(|pair| pair.adaptive.is_capped()).collect();
+    let methods = distinct(capped.iter().map(|pair| pair.adaptive.key.method.clone()));
+    // What `--cap` says of the filters.
+    let shown: Vec<&str> = methods.iter().map(String::as_str).filter(|method| *method != "pcss").collect();
+    let mut effects = Vec::new();
+    if methods.iter().any(|method| method == "pcss") {
+        effects.push("under pcss the narrowest shadows are widened".to_owned());
+    }
+    if !shown.is_empty() {
+        effects.push(format!("under {} texels show", shown.join(" and ")));
+    }
+    let cap = match capped.len() {
+        0 => String::new(),
+        count => format!(" In {count} of {} cases the cap makes them larger: {}.", pairs.len(), effects.join("; ")),
+    };
+    format!(
+        "The error in the penumbra is <b>{errors}</b> of the fixed maps': texels are as large as the demand allows, no \
+         smaller.{cap}"
+    )
+}
+
+fn where_it_does_not_pay(rows: &[Row], trades: &[Trade]) -> String {
+    let of = |wanted: Verdict| trades.iter().filter(move |trade| trade.verdict() == wanted);
+    let better = "the same error in less time, or less error in the same time";
+    let failing: Vec<String> = of(Verdict::DoesNotPay).map(name).collect();
+    let found = match (trades.len(), failing.len()) {
+        (0, _) if rows.iter().all(|row| row.total_ms().is_none()) => {
+            "Unknown: the device has no timestamps.".to_owned()
+        }
         (0, _) => "Unknown: two fixed sizes at least are needed to draw their curve.".to_owned(),
-        (count, 0) => format!("In none of {count} cases does a fixed size give the same error in less time."),
+        (count, 0) => format!("In none of {count} cases does a fixed size do better: {better}."),
         (count, found) => format!(
-            "In <b>{found}</b> of {count} cases a fixed size gives the same error in less time: {}. In {paying} the adaptive \
-             one wins.",
-            failing.join(", ")
+            "In <b>{found}</b> of {count} cases a fixed size does better ({better}): {}. In {} the adaptive one wins.",
+            failing.join(", "),
+            of(Verdict::Pays).count()
         ),
     };
     // Where no fixed size compares, its absence says nothing.
-    html += &match verdict(Verdict::Elsewhere).count() {
-        0 => String::new(),
-        count => format!(
-            " In <b>{count}</b> the run cannot tell: the adaptive map is faster and coarser than every fixed one, or slower \
-             and finer. More <code>--sizes</code> would."
-        ),
-    };
-    html += "</p></div></div>";
-    html + &table(rows, pairs, trades)
+    found
+        + &match of(Verdict::Elsewhere).count() {
+            0 => String::new(),
+            count => format!(
+                " In <b>{count}</b> the run cannot tell: the adaptive map is faster and coarser than every fixed one, or \
+                 slower and finer. More <code>--sizes</code> would."
+            ),
+        }
 }
 
 fn table(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
@@ -62,17 +100,17 @@ fn table(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
         let _ = write!(
             html,
             "<tr><td>{}<td>{}<td>{}<td>{}{}<td>{:.1}<td>{}<td>{}<td>{}<td>{}<td>{}{}",
-            pair.adaptive.key.scene,
+            escaped(&pair.adaptive.key.scene),
             pair.adaptive.key.filter_and_share(),
             pair.fixed.sizes_words(),
             pair.adaptive.sizes_words(),
             if pair.adaptive.is_capped() { " (cap)" } else { "" },
             pair.fewer_texels(),
-            times(pair.time_ratio()),
-            times(pair.time_ratio_of_size(rows)),
-            times(pair.error_ratio()),
-            times(pair.light_error_ratio()),
-            times(pair.frame_rate_ratio()),
+            ratio(pair.time_ratio()),
+            ratio(pair.time_ratio_of_size(rows)),
+            ratio(pair.error_ratio()),
+            ratio(pair.light_error_ratio()),
+            ratio(pair.frame_rate_ratio()),
             trade.map_or_else(|| "<td>-<td>-<td>-".to_owned(), cells),
         );
     }
@@ -90,65 +128,66 @@ fn table(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
 }
 
 fn cells(trade: &Trade) -> String {
-    let place = |place: Place, below: &str, above: &str| match place {
-        Place::Ratio(ratio) => format!("<td>{ratio:.2}"),
-        Place::BelowAll => format!("<td class=side>{below}"),
-        Place::AboveAll => format!("<td class=side>{above}"),
-    };
+    let class = |place: Place| if matches!(place, Place::Ratio(_)) { "" } else { " class=side" };
     let verdict = match trade.verdict() {
         Verdict::Pays => "<td class=pays>pays",
         Verdict::Even => "<td class=even>even",
         Verdict::DoesNotPay => "<td class=loses>does not pay",
         Verdict::Elsewhere => "<td class=even>incomparable",
     };
-    place(trade.error_at_equal_time, "faster than all", "slower than all")
-        + &place(trade.time_at_equal_error, "finer than all", "coarser than all")
-        + verdict
+    format!(
+        "<td{}>{}<td{}>{}{verdict}",
+        class(trade.error_at_equal_time),
+        trade.error_words(),
+        class(trade.time_at_equal_error),
+        trade.time_words()
+    )
 }
 
 fn name(trade: &Trade) -> String {
-    format!("{} {}", trade.key.scene, trade.key.filter_and_share())
+    format!("{} {}", escaped(&trade.key.scene), trade.key.filter_and_share())
 }
 
-fn times(ratio: Option<f64>) -> String {
-    ratio.map_or_else(|| "-".into(), |ratio| format!("{ratio:.2}"))
-}
-
-/// `4 to 380`, `7` where both ends print alike; the digits of small and of large numbers.
-fn span(values: impl Iterator<Item = f64>, digits: usize, digits_below_10: usize) -> String {
-    let (least, most) = values.fold((f64::INFINITY, 0.0_f64), |(a, b), value| (a.min(value), b.max(value)));
-    if least > most {
-        return "an unknown number of".into();
-    }
+/// `4 to 380`, `7` where both ends print alike; the digits of large and of small numbers. `None` of no values.
+fn span(values: impl Iterator<Item = f64>, digits: usize, digits_below_10: usize) -> Option<String> {
+    let ends = |ends: Option<[f64; 2]>, value: f64| {
+        Some(ends.map_or([value; 2], |[least, most]| [least.min(value), most.max(value)]))
+    };
     let word =
         |value: f64| if value < 10.0 { format!("{value:.digits_below_10$}") } else { format!("{value:.digits$}") };
-    let (least, most) = (word(least), word(most));
-    if least == most { least } else { format!("{least} to {most}") }
+    let [least, most] = values.fold(None, ends)?.map(word);
+    Some(if least == most { least } else { format!("{least} to {most}") })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::examples::row;
-    use crate::bench::reference::pairs;
+    use crate::bench::examples::{map, row};
+    use crate::bench::pair::pairs;
     use crate::bench::trade::trades;
+
+    fn of(rows: &[Row]) -> String {
+        summary(rows, &pairs(rows), &trades(rows))
+    }
 
     #[test]
     fn a_span_says_one_number_once() {
-        assert_eq!(span([2.0, 40.4].into_iter(), 0, 1), "2.0 to 40");
-        assert_eq!(span([0.5, 0.501].into_iter(), 2, 2), "0.50");
+        assert_eq!(span([2.0, 40.4].into_iter(), 0, 1), Some("2.0 to 40".into()));
+        assert_eq!(span([0.5, 0.501].into_iter(), 2, 2), Some("0.50".into()));
+        assert_eq!(span([].into_iter(), 2, 2), None);
     }
 
     #[test]
     fn the_cases_in_which_it_does_not_pay_are_named() {
         let mut rows = Vec::new();
-        for scene in ["yard", "contact"] {
+        for scene in ["yard", "a<b"] {
             rows.extend([row(scene, "pcf", "1024", 10.0, 0.1), row(scene, "pcf", "2048", 40.0, 0.05)]);
         }
-        rows.extend([row("yard", "pcf", "adaptive", 30.0, 0.09), row("contact", "pcf", "adaptive", 12.0, 0.06)]);
-        let html = summary(&rows, &pairs(&rows), &trades(&rows));
-        assert!(html.contains("In <b>1</b> of 2 cases") && html.contains("less time: yard pcf."), "{html}");
-        assert!(html.contains("pays") && html.contains("takes <b>0.30 to 0.75</b> of its time"), "{html}");
+        rows.extend([row("a<b", "pcf", "adaptive@0.01", 30.0, 0.09), row("yard", "pcf", "adaptive", 12.0, 0.06)]);
+        let html = of(&rows);
+        assert!(html.contains("In <b>1</b> of 2 cases") && html.contains("same time): a&lt;b pcf @0.01."), "{html}");
+        assert!(html.contains("pays") && html.contains("takes <b>0.30 to 0.75</b> of their time"), "{html}");
+        assert!(html.contains("fixed maps of 2048,") && !html.contains("cap") && !html.contains("a<b"), "{html}");
         assert!(!html.contains("cannot tell"), "{html}");
     }
 
@@ -156,8 +195,48 @@ mod tests {
     fn where_no_fixed_size_compares_the_page_says_that_it_cannot_tell() {
         let fixed = [row("yard", "pcf", "1024", 10.0, 0.1), row("yard", "pcf", "2048", 40.0, 0.05)];
         let rows = [fixed.as_slice(), &[row("yard", "pcf", "adaptive@0.05", 5.0, 0.2)]].concat();
-        let html = summary(&rows, &pairs(&rows), &trades(&rows));
+        let html = of(&rows);
         assert!(html.contains("In none of 1 cases") && html.contains("In <b>1</b> the run cannot tell"), "{html}");
         assert!(html.contains("<b>@0.05</b> lets the narrowest 5 % of the penumbra"), "{html}");
+    }
+
+    #[test]
+    fn a_map_at_its_cap_says_what_its_filter_does_there() {
+        let mut rows = Vec::new();
+        for method in ["pcf", "pcss"] {
+            rows.extend(["2048", "adaptive"].map(|size| row("yard", method, size, 10.0, 0.1)));
+        }
+        for (capped, words) in [
+            (1, "In 1 of 2 cases the cap makes them larger: under pcf texels show."),
+            (
+                3,
+                "In 2 of 2 cases the cap makes them larger: under pcss the narrowest shadows are widened; under pcf texels show.",
+            ),
+        ] {
+            rows[capped].maps = vec![map([1024, 1024], true)];
+            assert!(of(&rows).contains(words), "{}", of(&rows));
+        }
+    }
+
+    #[test]
+    fn what_a_run_lacks_is_said_instead_of_numbers() {
+        for sizes in [&["adaptive"][..], &["2048"], &[]] {
+            let rows: Vec<Row> = sizes.iter().map(|size| row("yard", "pcf", size, 10.0, 0.1)).collect();
+            let html = of(&rows);
+            assert!(
+                html.starts_with("<p>No adaptive map stands beside a fixed one") && !html.contains("<td>"),
+                "{html}"
+            );
+        }
+        let mut rows = ["1024", "2048", "adaptive"].map(|size| row("yard", "pcf", size, 10.0, 0.1));
+        assert!(of(&rows[1..]).contains("two fixed sizes at least"));
+        for row in &mut rows {
+            row.times_ms.clear();
+            row.comparison.penumbra.pixels = 0;
+        }
+        rows[2].texels = 2 * 2048 * 2048;
+        let html = of(&rows);
+        assert!(html.contains("<b>0.5</b> times fewer texels (below 1: more)"), "{html}");
+        assert!(html.matches("the device has no timestamps").count() == 2 && html.contains("no penumbra"), "{html}");
     }
 }

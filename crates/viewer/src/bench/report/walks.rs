@@ -1,6 +1,9 @@
 //! What changes on the way, in numbers: pops, shimmer, and whether any frame is slower than the fixed map's.
 
+use crate::bench::cell::ratio;
+use crate::bench::report::escaped;
 use crate::bench::walk::{Points, Walk};
+use crate::statistics::Spread;
 
 /// The table of all paths.
 pub fn table(walks: &[Walk]) -> String {
@@ -11,14 +14,12 @@ pub fn table(walks: &[Walk]) -> String {
     );
     for walk in walks {
         let ratios = walk.time_ratios();
-        let spread = crate::statistics::Spread::of(&ratios);
-        let kept = crate::statistics::Spread::of(&walk.kept_time_ratios());
+        let kept = Spread::of(&walk.kept_time_ratios());
         let [drawn, skipped] = walk.kept_passes();
-        let most = ratios.iter().copied().fold(f64::NAN, f64::max);
         let points = walk.adaptive_points.as_ref();
         html += &format!(
             "<tr><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{drawn} of {}<td>{}",
-            walk.key.scene,
+            escaped(&walk.key.scene),
             walk.key.filter(),
             walk.path,
             walk.switches(),
@@ -26,10 +27,10 @@ pub fn table(walks: &[Walk]) -> String {
             share(points.map(|points| points.pop.steady_mean)),
             share(points.map(shimmer)),
             share(walk.fixed_points.as_ref().map(shimmer)),
-            spread.map_or("-".into(), |spread| format!("{:.2}", spread.median)),
-            if most.is_nan() { "-".into() } else { format!("{most:.2}") },
+            ratio(Spread::of(&ratios).map(|spread| spread.median)),
+            ratio(ratios.iter().copied().max_by(f64::total_cmp)),
             drawn + skipped,
-            kept.map_or("-".into(), |spread| format!("{:.2}", spread.median)),
+            ratio(kept.map(|spread| spread.median)),
         );
     }
     html + "</tbody></table></div><p class=note>Changes are those of the visibility at fixed points of the world between two \

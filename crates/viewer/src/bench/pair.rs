@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::bench::row::Row;
-use crate::cli::Size;
+use crate::bench::row::{Key, Row};
+use crate::size::Size;
 
 /// An adaptive row and the fixed one beside it.
 #[derive(Clone, Copy)]
@@ -17,11 +17,12 @@ pub struct Pair<'a> {
 /// The pairs of soft filters, in the order of the rows.
 pub fn pairs(rows: &[Row]) -> Vec<Pair<'_>> {
     let adaptive = rows.iter().filter(|row| row.key.is_adaptive() && row.key.method != "none");
-    adaptive.filter_map(|adaptive| Some(Pair { fixed: fixed_beside(rows, adaptive)?, adaptive })).collect()
+    adaptive.filter_map(|adaptive| Some(Pair { fixed: fixed_beside(rows, &adaptive.key)?, adaptive })).collect()
 }
 
-fn fixed_beside<'a>(rows: &'a [Row], row: &Row) -> Option<&'a Row> {
-    let others = || rows.iter().filter(|other| other.key.is_beside(&row.key));
+/// The fixed map of the same scene and filter that adaptive ones are set beside.
+pub fn fixed_beside<'a>(rows: &'a [Row], key: &Key) -> Option<&'a Row> {
+    let others = || rows.iter().filter(|other| other.key.is_beside(key));
     let sizes: Vec<Size> = others().filter_map(|other| other.key.size()).collect();
     let beside = Size::beside(&sizes)?;
     others().find(|other| other.key.size() == Some(beside))
