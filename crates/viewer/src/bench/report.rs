@@ -38,7 +38,9 @@ pub fn report(record: &BenchRecord, out: &Path) -> Result<String> {
         head(record)
     );
     page += &summary::summary(rows, &pairs, &trades(rows));
-    let filters = filters_with(rows, Row::error);
+    let [filters, of_light] = [Row::error, Row::light_error].map(|error| filters_with(rows, error));
+    // A filter has one colour on the page.
+    let all = distinct(filters.iter().chain(&of_light).cloned());
     if !filters.is_empty() {
         page += &section(
             "Time against error",
@@ -47,16 +49,15 @@ pub fn report(record: &BenchRecord, out: &Path) -> Result<String> {
                  over the exact hard shadow, by rays.",
                 pareto::marks(rows)
             ),
-            &(legend(&filters) + &pareto::pareto(rows, scenes, &filters, "RMS error, penumbra", Row::error)?),
+            &(legend(&all, &filters) + &pareto::pareto(rows, scenes, &all, "RMS error, penumbra", Row::error)?),
         );
     }
-    let of_light = filters_with(rows, Row::light_error);
     if !of_light.is_empty() {
         let axis = "RMS error against the light, penumbra";
         page += &section(
             "Against the light itself",
             &against_the_light(record),
-            &(legend(&of_light) + &pareto::pareto(rows, scenes, &of_light, axis, Row::light_error)?),
+            &(legend(&all, &of_light) + &pareto::pareto(rows, scenes, &all, axis, Row::light_error)?),
         );
     }
     if !pairs.is_empty() {
@@ -77,12 +78,12 @@ pub fn report(record: &BenchRecord, out: &Path) -> Result<String> {
         page += &section(
             "On the way",
             "Size of the adaptive maps while camera or light moves.",
-            &(legend(&record.options.paths) + &figure + &walks::table(&record.walks)),
+            &(legend(&record.options.paths, &record.options.paths) + &figure + &walks::table(&record.walks)),
         );
     }
     if !record.sweep.is_empty() {
         let figure = ratios::ratios(&record.sweep, scenes, &record.options.methods, &record.ratio)?;
-        page += &section("Which ratio", &which_ratio(record), &(legend(scenes) + &figure));
+        page += &section("Which ratio", &which_ratio(record), &(legend(scenes, scenes) + &figure));
     }
     page += &section("All numbers", "", &numbers::table(rows));
     page += &foot(record);
@@ -140,13 +141,16 @@ fn section(title: &str, words: &str, body: &str) -> String {
     format!("<section><h2>{title}</h2>{words}{body}</section>\n")
 }
 
-/// Names in the colours of the figures.
-fn legend(names: &[String]) -> String {
+/// The names that are `shown`, in the colours that the figures give them by their place in `names`.
+fn legend(names: &[String], shown: &[String]) -> String {
     let entry = |(index, name): (usize, &String)| {
         let plotters::style::RGBColor(red, green, blue) = color(index);
         format!("<span style='--hue:rgb({red} {green} {blue})'>{}</span>", escaped(name))
     };
-    format!("<p class=legend>{}</p>", names.iter().enumerate().map(entry).collect::<String>())
+    format!(
+        "<p class=legend>{}</p>",
+        names.iter().enumerate().filter(|(_, name)| shown.contains(name)).map(entry).collect::<String>()
+    )
 }
 
 fn foot(record: &BenchRecord) -> String {

@@ -62,8 +62,9 @@ pub fn panels(
     }
     let head = page.find('>').map_or(0, |end| end + 1);
     page.insert_str(head, &format!("<title>{title}</title>"));
-    // A size that follows the page in place of one in pixels.
-    Ok(page.replacen(&format!("width=\"{}\" height=\"{}\"", size.0, size.1), "class=\"figure\"", 1))
+    // A size that follows the page, up to the one in pixels.
+    let fixed = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
+    Ok(page.replacen(&fixed, &format!("class=\"figure\" style=\"max-width:{}px\"", size.0), 1))
 }
 
 /// Ends of a logarithmic axis around positive values, with `share` of their span as room, at least a factor of 1.5 apart.
