@@ -37,7 +37,7 @@ pub fn report(record: &BenchRecord, out: &Path) -> Result<String> {
          <title>What accuracy each millisecond buys</title>\n<style>{STYLE}</style></head>\n<body><main>\n{}",
         head(record)
     );
-    page += &summary::summary(rows, &pairs, &trades(rows));
+    page += &summary::summary(rows, &pairs, &trades(rows), record.options.at_cap);
     let [filters, of_light] = [Row::error, Row::light_error].map(|error| filters_with(rows, error));
     // A filter has one colour on the page.
     let all = distinct(filters.iter().chain(&of_light).cloned());

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use scumble::AtCap;
+
 use crate::bench::cell::ratio;
 use crate::bench::pair::Pair;
 use crate::bench::report::figure::short;
@@ -9,8 +11,8 @@ use crate::bench::report::{distinct, escaped};
 use crate::bench::row::Row;
 use crate::bench::trade::{Place, Trade, Verdict};
 
-/// The sentences and the table of ratios.
-pub fn summary(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
+/// The sentences and the table of ratios; `at_cap` says what pcss does at its cap.
+pub fn summary(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade], at_cap: AtCap) -> String {
     if pairs.is_empty() {
         return "<p>No adaptive map stands beside a fixed one in this run: that takes a soft filter, an adaptive size and a \
                 fixed one.</p>"
@@ -18,7 +20,7 @@ pub fn summary(rows: &[Row], pairs: &[Pair<'_>], trades: &[Trade]) -> String {
     }
     let verdicts = [
         ("Texels and time", texels_and_time(pairs)),
-        ("Accuracy", accuracy(pairs)),
+        ("Accuracy", accuracy(pairs, at_cap)),
         ("Where it does not pay", where_it_does_not_pay(rows, trades)),
     ];
     let boxes: String =
@@ -38,16 +40,17 @@ fn texels_and_time(pairs: &[Pair<'_>]) -> String {
     format!("<b>{texels}</b> times fewer texels{below_1} than fixed maps of {fixed}, {time}")
 }
 
-fn accuracy(pairs: &[Pair<'_>]) -> String {
+fn accuracy(pairs: &[Pair<'_>], at_cap: AtCap) -> String {
     let Some(errors) = span(pairs.iter().filter_map(Pair::error_ratio), 2, 2) else {
         return "Nothing is known of errors: no penumbra is on screen.".into();
     };
     let capped: Vec<&Pair<'_>> = pairs.iter().filter(|pair| pair.adaptive.is_capped()).collect();
     let methods = distinct(capped.iter().map(|pair| pair.adaptive.key.method.clone()));
-    // What `--cap` says of the filters.
-    let shown: Vec<&str> = methods.iter().map(String::as_str).filter(|method| *method != "pcss").collect();
+    // What `--cap` and `--at-cap` say of the filters.
+    let is_widened = |method: &str| method == "pcss" && at_cap == AtCap::Widen;
+    let shown: Vec<&str> = methods.iter().map(String::as_str).filter(|method| !is_widened(method)).collect();
     let mut effects = Vec::new();
-    if methods.iter().any(|method| method == "pcss") {
+    if methods.iter().any(|method| is_widened(method)) {
         effects.push("under pcss the narrowest shadows are widened".to_owned());
     }
     if !shown.is_empty() {
@@ -167,7 +170,7 @@ mod tests {
     use crate::bench::trade::trades;
 
     fn of(rows: &[Row]) -> String {
-        summary(rows, &pairs(rows), &trades(rows))
+        summary(rows, &pairs(rows), &trades(rows), AtCap::Widen)
     }
 
     #[test]
@@ -216,6 +219,8 @@ mod tests {
             rows[capped].maps = vec![map([1024, 1024], true)];
             assert!(of(&rows).contains(words), "{}", of(&rows));
         }
+        let smooth = summary(&rows, &pairs(&rows), &trades(&rows), AtCap::ShowTexels);
+        assert!(smooth.contains("larger: under pcf and pcss texels show."), "{smooth}");
     }
 
     #[test]
