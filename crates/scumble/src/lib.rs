@@ -8,8 +8,9 @@
 //! 4. [`Shadows::begin`] gives a depth-only pass for each view; the caller draws its casters. [`Shadows::prefilter`] then
 //!    makes the moments of a variance shadow map; with other filters it does nothing.
 //!    Casters that stand still need no pass while their map stays: [`Shadows::begin_static`], [`Keep`].
-//! 5. [`Shadows::measure`], optional, looks at a depth prepass and finds the radii on screen, of which the smallest
-//!    (Kreuzer 2017, Eq. 5.12) or a [`Statistic`] sizes the map, and where everything is lit or dark: there the shading needs one lookup and no filter.
+//! 5. [`Shadows::measure`], optional, looks at a depth prepass and finds the radii on screen, of which the smallest (Kreuzer
+//!    2017, Eq. 5.12) or a quantile ([`Statistic`]) sizes the map, and where everything is lit or dark: there the shading
+//!    needs one lookup and no filter.
 //!    Renderers without a prepass measure while they shade: [`FragmentDemand`].
 //! 6. The caller shades: [`shadow_wgsl`] before its shader, [`Shadows::bind_group`] bound, `shadow_visibility` called.
 //!
@@ -31,15 +32,16 @@
 //! # Ok(()) }
 //! ```
 //!
-//! It takes the types of wgpu 30. `measure` and VSM need compute shaders. A prepass has depths from 0 (near) to 1, as
-//! [`Camera::clip_from_world`] makes them; a renderer whose depths are reversed uses [`FragmentDemand`], or measures nothing:
-//! then bounds and the filter's radius give the sizes, and PCSS, which has no radius, takes the cap's.
+//! It takes the types of wgpu 30. The caller keeps device, queue, encoder, scene and camera. This crate never submits, never
+//! waits, and allocates at creation, at the first `measure`, and when the prepass changes its size. A directional light has
+//! one map or a cascade of them ([`Options::cascades`]), a spot has one, a point light up to six: faces of 90 degrees and what
+//! its filter reaches beyond them, each fitted to what is seen in it and with a size of its own, none where nothing is seen.
 //!
-//! The caller keeps device, queue, encoder, scene and camera. This crate never submits, never waits, and allocates at
-//! creation, at the first `measure`, and when the prepass changes its size. Measuring and variance shadow maps need compute
-//! shaders; all else works within `wgpu::Limits::downlevel_webgl2_defaults()`, with sizes from bounds. A directional light has one map or a cascade of
-//! them ([`Options::cascades`]), a spot has one, a point light up to six: faces of 90 degrees and what its filter reaches
-//! beyond them, each fitted to what is seen in it and with a size of its own, none where nothing is seen.
+//! Measuring and variance shadow maps need compute shaders; all else works within
+//! `wgpu::Limits::downlevel_webgl2_defaults()`: then bounds and the filter's radius give the sizes, and PCSS, which has no
+//! radius, takes the cap's. A prepass has depths from 0 (near) to 1, as [`Camera::clip_from_world`] makes them; a renderer
+//! whose depths are reversed uses [`FragmentDemand`], or measures nothing. Files, clocks, threads, network and processes are
+//! not used; a build for wasm32 has not been tried.
 
 mod atlas;
 mod bindings;
