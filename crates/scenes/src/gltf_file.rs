@@ -8,7 +8,7 @@ use crate::gltf_images::{self, Image};
 use crate::oddities::Oddities;
 use crate::polygon::has_area;
 use crate::shading::{Indexed, Loose, index};
-use crate::{AlphaMask, Error, Mesh};
+use crate::{AlphaMask, AlphaTexture, Error, Mesh};
 use glam::{DAffine3, DMat4, Mat4, Vec2, Vec3};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
@@ -20,6 +20,8 @@ struct Source<'a> {
     file: &'a Path,
     buffers: &'a [gltf::buffer::Data],
     images: &'a [Image],
+    /// By material: what cuts it out, and its set of texture coordinates.
+    masks: &'a [Option<(Arc<AlphaTexture>, u32)>],
 }
 
 /// Loads a glTF file, in metres and world space.
@@ -29,7 +31,10 @@ pub fn load_gltf(file: &Path) -> Result<Vec<Mesh>, Error> {
     let (document, blob) = document_of(file, &bytes)?;
     let buffers = gltf::import_buffers(&document, file.parent(), blob).map_err(|problem| bad_buffer(file, &problem))?;
     let images = gltf_images::images(&document, file, &buffers);
-    let source = Source { file, buffers: &buffers, images: &images };
+    let mask_of =
+        |material| gltf_images::alpha_texture(&material, &images).map(|(texture, set)| (Arc::new(texture), set));
+    let masks: Vec<_> = document.materials().map(mask_of).collect();
+    let source = Source { file, buffers: &buffers, images: &images, masks: &masks };
 
     // Walk the default scene, or the first, or all root nodes of a file without scenes.
     let (mut meshes, mut oddities) = (Vec::new(), Oddities::default());
@@ -109,15 +114,14 @@ impl Source<'_> {
                     continue;
                 }
                 let Indexed { positions, normals, uvs, triangles } = index(&loose);
-                let texture = gltf_images::alpha_texture(&primitive.material(), self.images);
-                let mask = texture.filter(|_| !uvs.is_empty());
+                let mask = self.mask_of(&primitive).filter(|_| !uvs.is_empty());
                 let named = Mesh {
                     name: mesh.name().map_or(place, str::to_owned),
                     positions,
                     normals,
                     triangles,
                     linear_color: gltf_images::linear_color(&primitive.material(), self.images),
-                    mask: mask.map(|(texture, _)| AlphaMask { uvs, texture: Arc::new(texture) }),
+                    mask: mask.map(|(texture, _)| AlphaMask { uvs, texture: texture.clone() }),
                 };
                 meshes.push(named.transformed(&DAffine3::from_mat4(world_from_node)));
             }
@@ -195,6 +199,11 @@ impl Source<'_> {
         Ok((loose, flat))
     }
 
+    /// What cuts a primitive out; `None` where nothing does.
+    fn mask_of(&self, primitive: &gltf::Primitive<'_>) -> Option<&(Arc<AlphaTexture>, u32)> {
+        self.masks.get(primitive.material().index()?)?.as_ref()
+    }
+
     /// Those of the texture that cuts the primitive out, one a vertex; none where nothing does.
     fn texture_coordinates(
         &self,
@@ -202,7 +211,7 @@ impl Source<'_> {
         place: &str,
         vertices: usize,
     ) -> Result<Vec<Vec2>, Error> {
-        let Some((_, set)) = gltf_images::alpha_texture(&primitive.material(), self.images) else {
+        let Some(&(_, set)) = self.mask_of(primitive) else {
             return Ok(Vec::new());
         };
         let Some(accessor) = primitive.get(&gltf::Semantic::TexCoords(set)) else {

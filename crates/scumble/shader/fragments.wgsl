@@ -28,10 +28,13 @@ fn shadow_visibility_measured(
         return 1.0;
     }
     let sample = shadow_sample(light, position_world, normal_world, frag_coord);
+    let is_partial = sample.visibility > 0.0 && sample.visibility < 1.0 && sample.blockers >= 2u;
+    if !is_partial {
+        return sample.visibility;
+    }
     let position_light = (shadow_lights.maps[map].light_from_world * vec4f(position_world, 1.0)).xyz;
     let normal_light = (shadow_lights.maps[map].light_from_world * vec4f(normal_world, 0.0)).xyz;
-    let is_partial = sample.visibility > 0.0 && sample.visibility < 1.0 && sample.blockers >= 2u;
-    if is_partial && shadow_faces_light(map, normal_light, shadow_ray_light(map, position_light)) {
+    if shadow_faces_light(map, normal_light, shadow_ray_light(map, position_light)) {
         let footprint = shadow_footprint(map, pixel_world, position_light.z);
         let guard = max(shadow_fragments.radius_floor_world, shadow_fragments.radius_per_footprint * footprint);
         // The bits of what is no radius, NaN or below 0, are above those of infinity.
