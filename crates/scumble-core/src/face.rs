@@ -69,16 +69,11 @@ impl Face {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::tests_support::rays;
 
     #[test]
     fn every_direction_belongs_to_the_face_whose_axis_is_nearest() {
-        for i in 1..1000 {
-            let t = f64::from(i);
-            let ray = DVec3::new(
-                (t * 0.618_033_9).fract() - 0.5,
-                (t * 0.754_877_7).fract() - 0.5,
-                (t * 0.569_840_3).fract() - 0.5,
-            );
+        for ray in rays() {
             let nearest = Face::ALL.into_iter().max_by(|a, b| a.axis().dot(ray).total_cmp(&b.axis().dot(ray)));
             assert_eq!(Some(Face::of(ray)), nearest, "{ray}");
         }

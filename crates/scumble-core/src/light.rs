@@ -168,6 +168,7 @@ impl Light {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::tests_support::rays;
 
     #[test]
     fn the_light_looks_along_minus_z_of_a_rigid_right_handed_light_space() {
@@ -196,13 +197,7 @@ mod tests {
     #[test]
     fn a_face_lets_in_its_own_directions_as_far_as_the_light_reaches() {
         let light = Light::Point { position: DVec3::ONE, radius_world: 0.1, reach_world: 4.0 };
-        for i in 1..1000 {
-            let t = f64::from(i);
-            let ray = DVec3::new(
-                (t * 0.618_033_9).fract() - 0.5,
-                (t * 0.754_877_7).fract() - 0.5,
-                (t * 0.569_840_3).fract() - 0.5,
-            );
+        for ray in rays() {
             let ray = ray / ray.abs().max_element();
             // Between a face and its neighbours the overlap is of both.
             if ray.abs().to_array().iter().filter(|side| **side > 1.0 - 2.0 * OVERLAP).count() > 1 {

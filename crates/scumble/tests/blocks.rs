@@ -4,7 +4,7 @@
 mod common;
 
 use common::casters::cuboid;
-use common::rig::{Point, Rig, fixed, ground_and, slab, sun_above};
+use common::rig::{Point, Rig, fixed, ground_and, ground_points, slab, sun_above};
 use glam::Vec3;
 use scumble::{Filter, Light, Options, Settings};
 
@@ -15,17 +15,6 @@ const MIXED: f32 = 3.0;
 /// Pixels a side of the prepass: the 8 m of ground below `camera_above`.
 const SIDE: u32 = 96;
 
-/// The ground's points under every pixel, row by row.
-fn ground_points() -> Vec<Point> {
-    let world = |i: u32| ((i as f32 + 0.5) / SIDE as f32 - 0.5) * 8.0;
-    (0..SIDE * SIDE)
-        .map(|i| {
-            let pixel = [i % SIDE, i / SIDE];
-            Point { position: Vec3::new(world(pixel[0]), 0.0, world(pixel[1])), normal: Vec3::Y, pixel }
-        })
-        .collect()
-}
-
 fn rig(filter: Filter, casters: Vec<Vec3>) -> Rig {
     let options = Options { measure_stride: 4, ..fixed(filter, 512) };
     Rig::new(Settings { cap: 512, ..Settings::default() }, options, &ground_and(casters))
@@ -33,16 +22,16 @@ fn rig(filter: Filter, casters: Vec<Vec3>) -> Rig {
 
 /// What the pixels' blocks are.
 fn kinds(rig: &Rig) -> Vec<f32> {
-    let results = rig.evaluate("result.x = f32(shadow_block(0u, vec2u(row.c.xy)));", &ground_points());
+    let results = rig.evaluate("result.x = f32(shadow_block(0u, vec2u(row.c.xy)));", &ground_points(SIDE));
     results.into_iter().map(|result| result[0]).collect()
 }
 
 /// Visibility of all points without and with what the demand pass found, and the kinds of the blocks.
 fn without_and_with(rig: &mut Rig, light: Light) -> (Vec<f32>, Vec<f32>, Vec<f32>) {
     rig.draw(&[light]);
-    let without = rig.visibility(&ground_points());
+    let without = rig.visibility(&ground_points(SIDE));
     rig.draw_and_measure(&[light], SIDE);
-    (without, rig.visibility(&ground_points()), kinds(rig))
+    (without, rig.visibility(&ground_points(SIDE)), kinds(rig))
 }
 
 fn share(kinds: &[f32], kind: f32) -> f64 {
@@ -107,7 +96,8 @@ fn prepasses_of_any_size_and_stride_have_blocks() {
         let options = Options { measure_stride: stride, ..fixed(Filter::Pcss, 64) };
         let mut rig = Rig::new(Settings { cap: 64, ..Settings::default() }, options, &ground_and(slab(2.0, 0.0)));
         rig.draw_and_measure(&[light], side);
-        let points: Vec<Point> = ground_points().into_iter().filter(|p| p.pixel.iter().all(|&i| i < side)).collect();
+        let points: Vec<Point> =
+            ground_points(SIDE).into_iter().filter(|p| p.pixel.iter().all(|&i| i < side)).collect();
         assert!(rig.visibility(&points).iter().all(|v| (0.0..=1.0).contains(v)), "{stride} {side}");
     }
 }

@@ -6,9 +6,9 @@ mod common;
 use std::path::Path;
 
 use common::casters::Casters;
-use common::rig::{Point, Rig, camera_above, ground_and, slab, sun_above};
+use common::rig::{Rig, camera_above, ground_and, ground_points, slab, sun_above};
 use common::{Gpu, open};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use naga::back::glsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use scumble::{
@@ -21,17 +21,6 @@ const SIDE: u32 = 64;
 
 fn settings() -> Settings {
     Settings { cap: 512, ..Settings::default() }
-}
-
-/// Ground points under the pixels, as `SHADE` has them.
-fn points() -> Vec<Point> {
-    let world = |i: u32| ((i as f32 + 0.5) / SIDE as f32 - 0.5) * 8.0;
-    (0..SIDE * SIDE)
-        .map(|i| {
-            let pixel = [i % SIDE, i / SIDE];
-            Point { position: Vec3::new(world(pixel[0]), 0.0, world(pixel[1])), normal: Vec3::Y, pixel }
-        })
-        .collect()
 }
 
 const SHADE: &str = "
@@ -145,7 +134,7 @@ fn shadows_without_storage_and_compute_are_those_of_any_device() {
             if keep == Keep::Nothing {
                 let mut rig = Rig::new(settings(), options, &vertices);
                 rig.draw(&[sun_above(0.1)]);
-                for (pixel, expected) in found.iter().zip(rig.visibility(&points())) {
+                for (pixel, expected) in found.iter().zip(rig.visibility(&ground_points(SIDE))) {
                     assert!((f32::from(*pixel) - 255.0 * expected).abs() <= 1.0, "{filter:?}: {pixel} {expected}");
                 }
             }

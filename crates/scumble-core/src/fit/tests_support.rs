@@ -45,3 +45,12 @@ pub(crate) fn sun_over_room() -> Fit {
 pub(crate) fn lamp_over_room() -> Fit {
     fit(&observer(), &room(), &lamp(), true).unwrap().unwrap()
 }
+
+/// Vectors to all sides, within half a unit along each axis.
+pub(crate) fn rays() -> impl Iterator<Item = DVec3> {
+    (1..1000).map(|i| {
+        let t = f64::from(i);
+        let along = |step: f64| (t * step).fract() - 0.5;
+        DVec3::new(along(0.618_033_9), along(0.754_877_7), along(0.569_840_3))
+    })
+}

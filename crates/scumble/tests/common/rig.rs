@@ -40,6 +40,17 @@ pub fn sun_above(half_angle: f64) -> Light {
     Light::Directional { direction: DVec3::NEG_Y, half_angle }
 }
 
+/// The ground's points under every pixel of a picture of `side` squared that shows the 8 m below `camera_above`, by rows.
+pub fn ground_points(side: u32) -> Vec<Point> {
+    let world = |i: u32| ((i as f32 + 0.5) / side as f32 - 0.5) * 8.0;
+    (0..side * side)
+        .map(|i| {
+            let pixel = [i % side, i / side];
+            Point { position: Vec3::new(world(pixel[0]), 0.0, world(pixel[1])), normal: Vec3::Y, pixel }
+        })
+        .collect()
+}
+
 /// Ground of 10 m at y = 0 and above it what is given.
 pub fn ground_and(casters: Vec<Vec3>) -> Vec<Vec3> {
     let mut all = super::casters::quad([
